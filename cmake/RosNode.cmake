@@ -1,0 +1,16 @@
+# The ROS library and the node.
+heerk_add_library(heerk_rotor_ros ros EXCLUDE rotor_node_main.cpp)
+if(TARGET heerk_rotor_ros)
+  add_dependencies(heerk_rotor_ros ${PROJECT_NAME}_generate_messages_cpp)
+  target_include_directories(heerk_rotor_ros SYSTEM PUBLIC
+    ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
+  target_link_libraries(heerk_rotor_ros PUBLIC heerk_rotor_core ${catkin_LIBRARIES})
+  if(TARGET heerk_rotor_lcm)
+    target_link_libraries(heerk_rotor_ros PUBLIC heerk_rotor_lcm)
+    target_compile_definitions(heerk_rotor_ros PUBLIC HEERK_WITH_LCM)
+  endif()
+  if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/src/ros/rotor_node_main.cpp)
+    add_executable(rotor_node src/ros/rotor_node_main.cpp)
+    target_link_libraries(rotor_node PRIVATE heerk_rotor_ros)
+  endif()
+endif()

@@ -1,0 +1,96 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "heerk_rotor/core/subsystem_model.hpp"
+
+namespace heerk_rotor {
+
+/// One scalar that can be recorded: a state or an output entry, "subsystem.name".
+struct Signal {
+  enum class Kind { kState, kOutput };
+  std::string name;
+  std::string unit;
+  std::string meaning;
+  Kind kind;
+  Index index;        // into the global x or y
+  bool published;
+};
+
+/// The index-1 DAE made of all subsystems, flattened: global vectors x (states), u (inputs), y (outputs), w (commands),
+/// and the primitives by which solver and integrator evaluate it. Built by CouplingGraph; sizes never change.
+class CoupledSystem {
+ public:
+  struct Subsystem {
+    std::string name;
+    std::unique_ptr<SubsystemModel> model;
+    StiffPart stiff;
+    bool provides_remainder;
+    Index x_begin, x_size, u_begin, u_size, y_begin, y_size;
+  };
+
+  /// An output port within the global y.
+  struct Output {
+    std::string name;                    // "subsystem.port"
+    Index subsystem, port;               // owner, and number within it
+    Index begin, size;                   // entries of y
+    double nominal;
+    std::vector<Index> feedthrough;      // global input ports it depends on at once
+  };
+
+  /// An input port within the global u.
+  struct Input {
+    std::string name;
+    Index subsystem;
+    Index begin, size;                   // entries of u
+    std::vector<Index> sources;          // global output ports that are summed
+    std::vector<Index> source_begin;     // their first entries of y
+    Index command = -1;                  // first entry of w, when it is a command
+    Vector default_value;                // (size) used when there are no sources and no command
+  };
+
+  Index stateSize() const { return x_size_; }
+  Index inputSize() const { return u_size_; }
+  Index outputSize() const { return y_size_; }
+  Index commandSize() const { return default_command_.size(); }
+
+  const std::vector<Subsystem>& subsystems() const { return subsystems_; }
+  const std::vector<Output>& outputs() const { return outputs_; }
+  const std::vector<Input>& inputs() const { return inputs_; }
+
+  /// All states and output entries by name. A state that a model also offers as output entry appears once, as output.
+  /// signal() throws std::out_of_range with the nearest name; findSignal() returns nullptr.
+  const std::vector<Signal>& signals() const { return signals_; }
+  const Signal& signal(const std::string& name) const;
+  const Signal* findSignal(const std::string& name) const;
+
+  /// Names of the entries of w ("swashplate.collective", ...), their units, and their defaults.
+  const std::vector<std::string>& commandNames() const { return command_names_; }
+  const Vector& defaultCommand() const { return default_command_; }
+
+  /// x at t0: declared initial values, then each model's completeInitialState in order.
+  Vector initialState() const;
+
+  /// Sums the sources of one input port into u. Returns whether any entry changed (bitwise).
+  bool gather(Index input, const Vector& y, const Vector& w, Vector& u) const noexcept;
+
+  /// Evaluates one output port into `result` (its entries only).
+  void evalOutput(Index output, double t, const Vector& x, const Vector& u, double* result) noexcept;
+
+  /// remainder = f(t, x, u) - S x of all subsystems, or the complete f when `complete` is set.
+  void evalRemainder(double t, const Vector& x, const Vector& u, bool complete, double* remainder) noexcept;
+
+ private:
+  friend class CouplingGraph;
+  std::vector<Subsystem> subsystems_;
+  std::vector<Output> outputs_;
+  std::vector<Input> inputs_;
+  std::vector<Signal> signals_;
+  Vector declared_initial_;
+  std::vector<std::string> command_names_;
+  Vector default_command_;
+  Index x_size_ = 0, u_size_ = 0, y_size_ = 0;
+};
+
+}  // namespace heerk_rotor

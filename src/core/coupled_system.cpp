@@ -1,0 +1,79 @@
+#include "heerk_rotor/core/coupled_system.hpp"
+
+#include <stdexcept>
+
+#include "heerk_rotor/core/nearest_name.hpp"
+
+namespace heerk_rotor {
+
+const Signal* CoupledSystem::findSignal(const std::string& name) const {
+  for (const Signal& signal : signals_)
+    if (signal.name == name) return &signal;
+  return nullptr;
+}
+
+const Signal& CoupledSystem::signal(const std::string& name) const {
+  if (const Signal* found = findSignal(name)) return *found;
+  std::vector<std::string> known;
+  for (const Signal& signal : signals_) known.push_back(signal.name);
+  throw std::out_of_range("no signal " + name + didYouMean(name, known));
+}
+
+Vector CoupledSystem::initialState() const {
+  Vector x = declared_initial_;
+  Vector u = Vector::Zero(u_size_), y = Vector::Zero(y_size_);
+  // Each model may use what the others' initial states determine: sweep until nothing changes. Values in algebraic loops
+  // are not solved here and stay meaningless.
+  for (const Subsystem& s : subsystems_) {
+    for (std::size_t sweep = 0; sweep <= outputs_.size(); ++sweep) {
+      const Vector before = y;
+      for (Index i = 0; i < static_cast<Index>(inputs_.size()); ++i) gather(i, y, default_command_, u);
+      for (const Output& output : outputs_) {
+        const Subsystem& owner = subsystems_[output.subsystem];
+        owner.model->evalOutput(output.port, 0.0, In(x.data() + owner.x_begin, owner.x_size), In(u.data() + owner.u_begin, owner.u_size),
+                                Out(y.data() + output.begin, output.size));
+      }
+      if (y == before) break;
+    }
+    s.model->completeInitialState(In(u.data() + s.u_begin, s.u_size), Out(x.data() + s.x_begin, s.x_size));
+  }
+  return x;
+}
+
+bool CoupledSystem::gather(Index number, const Vector& y, const Vector& w, Vector& u) const noexcept {
+  const Input& input = inputs_[number];
+  double* target = u.data() + input.begin;
+  const std::size_t sources = input.source_begin.size();
+  const double* first = sources > 0 ? y.data() + input.source_begin[0]
+                                    : input.command >= 0 ? w.data() + input.command : input.default_value.data();
+  bool changed = false;
+  for (Index i = 0; i < input.size; ++i) {
+    double sum = first[i];
+    for (std::size_t k = 1; k < sources; ++k) sum += y[input.source_begin[k] + i];
+    changed |= target[i] != sum;
+    target[i] = sum;
+  }
+  return changed;
+}
+
+void CoupledSystem::evalOutput(Index number, double t, const Vector& x, const Vector& u, double* result) noexcept {
+  const Output& output = outputs_[number];
+  const Subsystem& s = subsystems_[output.subsystem];
+  s.model->evalOutput(output.port, t, In(x.data() + s.x_begin, s.x_size), In(u.data() + s.u_begin, s.u_size), Out(result, output.size));
+}
+
+void CoupledSystem::evalRemainder(double t, const Vector& x, const Vector& u, bool complete, double* remainder) noexcept {
+  for (const Subsystem& s : subsystems_) {
+    if (s.x_size == 0) continue;
+    const In xs(x.data() + s.x_begin, s.x_size), us(u.data() + s.u_begin, s.u_size);
+    const Out out(remainder + s.x_begin, s.x_size);
+    if (!complete && s.provides_remainder) {
+      s.model->evalRemainder(t, xs, us, out);
+    } else {
+      s.model->evalDerivatives(t, xs, us, out);
+      if (!complete && !std::holds_alternative<ZeroStiff>(s.stiff)) subtractStiff(s.stiff, xs, In(out.data(), out.size()), out);
+    }
+  }
+}
+
+}  // namespace heerk_rotor

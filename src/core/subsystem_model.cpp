@@ -1,0 +1,15 @@
+#include "heerk_rotor/core/subsystem_model.hpp"
+
+namespace heerk_rotor {
+
+StiffPart SubsystemModel::stiffPart() const { return ZeroStiff{static_cast<Index>(states().size())}; }
+
+void SubsystemModel::evalRemainder(double t, const In& x, const In& u, Out remainder) noexcept {
+  evalDerivatives(t, x, u, remainder);  // right for S = 0; a model with providesRemainder() overrides this
+}
+
+bool SubsystemModel::outputJacobian(Index, double, const In&, const In&, Eigen::Map<Matrix>) noexcept { return false; }
+
+void SubsystemModel::completeInitialState(const In&, Out) const {}
+
+}  // namespace heerk_rotor

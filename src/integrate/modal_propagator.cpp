@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "heerk_rotor/integrate/phi_functions.hpp"
+#include "propagator_kinds.hpp"
+
+namespace heerk_rotor {
+namespace {
+
+/// Many independent 2 x 2 blocks: states are all first coordinates, then all second ones.
+class PairPropagator final : public LinearPropagator {
+ public:
+  /// blocks[entry][pair]
+  PairPropagator(RowPlan plan, const std::vector<std::vector<Eigen::Matrix2d>>& blocks)
+      : plan_(std::move(plan)), pairs_(static_cast<Index>(blocks[0].size())), pitch_((pairs_ + kLine - 1) / kLine * kLine) {
+    table_.setZero(4 * pitch_ * static_cast<Index>(blocks.size()));
+    double* to = table_.data();
+    for (const auto& entry : blocks)
+      for (const auto& [row, column] : {std::pair(0, 0), std::pair(0, 1), std::pair(1, 0), std::pair(1, 1)}) {
+        for (Index pair = 0; pair < pairs_; ++pair) to[pair] = entry[pair](row, column);
+        to += pitch_;
+      }
+  }
+
+  void combine(int row, const double* x, const double* remainders, Index stride, double* result) const noexcept override {
+    const RowPlan::Row range = plan_.rows[row];
+    if (range.begin == range.end) {
+      std::copy_n(x, 2 * pairs_, result);
+      return;
+    }
+    const Sources from = {x, remainders, stride};
+    Index pair = 0;
+    for (; pair + kLanes <= pairs_; pair += kLanes) combineLanes<kLanes>(range, from, pair, result);
+    for (; pair + 4 <= pairs_; pair += 4) combineLanes<4>(range, from, pair, result);
+    for (; pair < pairs_; ++pair) combineLanes<1>(range, from, pair, result);
+  }
+
+ private:
+  static constexpr Index kLine = 8;  // doubles per cache line: a load must not straddle two
+  static constexpr int kLanes = 16;  // two AVX-512 or four AVX registers per sum: enough independent chains to hide the latency
+
+  struct Sources {
+    const double* x;
+    const double* remainders;
+    Index stride;
+    const double* column(int c) const { return c == RowPlan::kState ? x : remainders + c * stride; }
+  };
+
+  /// N neighbouring pairs: the sums stay in registers over all products of the row.
+  template <int N>
+  void combineLanes(RowPlan::Row range, const Sources& from, Index pair, double* __restrict result) const noexcept {
+    using Lanes = Eigen::Array<double, N, 1>;
+    using Load = Eigen::Map<const Lanes>;
+    Lanes q = Lanes::Zero(), v = Lanes::Zero();
+    for (int p = range.begin; p < range.end; ++p) {
+      const RowPlan::Product& product = plan_.products[p];
+      const double* a = from.column(product.first) + pair;
+      Lanes a_q = Load(a), a_v = Load(a + pairs_);
+      if (product.second != RowPlan::kNone) {
+        const double* b = from.column(product.second) + pair;
+        a_q += Load(b);
+        a_v += Load(b + pairs_);
+      }
+      const double* c = table_.data() + 4 * pitch_ * product.entry + pair;
+      q += Load(c) * a_q + Load(c + pitch_) * a_v;
+      v += Load(c + 2 * pitch_) * a_q + Load(c + 3 * pitch_) * a_v;
+    }
+    Eigen::Map<Lanes>(result + pair) = q;
+    Eigen::Map<Lanes>(result + pairs_ + pair) = v;
+  }
+
+  RowPlan plan_;
+  Index pairs_;
+  Index pitch_;   // pairs_ rounded up to whole cache lines
+  Vector table_;  // [entry][qq, qv, vq, vv][pair, padded to pitch_], aligned by Eigen
+};
+
+}  // namespace
+
+std::unique_ptr<LinearPropagator> makeModalPropagator(const ModalStiff& part, double h, const Tableau& tableau) {
+  RowPlan plan(tableau);
+  const Index pairs = part.omega.size();
+  std::vector<std::vector<Eigen::Matrix2d>> blocks(plan.entries.size());
+  for (Index i = 0; i < pairs; ++i) {
+    std::map<double, ModalPhi> phi;  // node -> phi_k(node h S) of this pair
+    for (std::size_t e = 0; e < plan.entries.size(); ++e) {
+      Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+      for (const PhiTerm& term : plan.entries[e].terms) {
+        const auto known = phi.try_emplace(term.node, part.omega[i], part.damping[i], term.node * h).first;
+        sum += term.weight * known->second[term.k];
+      }
+      if (plan.entries[e].times_h) sum *= h;
+      blocks[e].push_back(sum);
+    }
+  }
+
+  // A single pair is a 2 x 2 matrix, and that path has less to set up.
+  if (pairs == 1) {
+    std::vector<Matrix> matrices;
+    for (const auto& entry : blocks) matrices.push_back(entry[0]);
+    return makeMatrixPropagator(std::move(plan), matrices);
+  }
+  return std::make_unique<PairPropagator>(std::move(plan), blocks);
+}
+
+}  // namespace heerk_rotor

@@ -1,0 +1,42 @@
+#pragma once
+#include <vector>
+
+#include "heerk_rotor/integrate/tableau.hpp"
+
+namespace heerk_rotor {
+
+/// A tableau rewritten as what `combine` has to multiply: every distinct coefficient once, zeros gone.
+struct RowPlan {
+  static constexpr int kState = -1;  // column of x itself
+  static constexpr int kNone = -2;   // no second column
+
+  /// A matrix that has to be tabulated: sum weight * phi_k(node * h S), times h unless it propagates the state.
+  struct Entry {
+    Coefficient terms;
+    bool times_h;
+  };
+  /// matrix[entry] * (column first + column second): a coefficient that stands twice in a row is applied to the sum.
+  struct Product {
+    int entry;
+    int first;
+    int second;
+  };
+  struct Row {
+    int begin;  // products [begin, end); none: the row is x itself
+    int end;
+  };
+
+  std::vector<Entry> entries;
+  std::vector<Product> products;
+  std::vector<Row> rows;
+
+  explicit RowPlan(const Tableau& tableau);
+
+  /// Largest k of the phi_k needed at this node.
+  int highestK(double node) const;
+
+ private:
+  int entryOf(const Coefficient& terms, bool times_h);
+};
+
+}  // namespace heerk_rotor

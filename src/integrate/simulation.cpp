@@ -1,0 +1,195 @@
+#include "heerk_rotor/integrate/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+namespace heerk_rotor {
+namespace {
+
+/// eps = 0.001 min(1, (h / h_ref)^p) with h_ref = T_rev / 100 (HEERK paper, Section 4.2).
+double paperTolerance(const StepOptions& options) {
+  const double ratio = options.step / (options.revolution / 100.0);
+  return 1e-3 * std::min(1.0, std::pow(ratio, options.method->order));
+}
+
+Index firstNonFinite(const double* values, Index size) noexcept {
+  for (Index i = 0; i < size; ++i)
+    if (!std::isfinite(values[i])) return i;
+  return -1;
+}
+
+}  // namespace
+
+Simulation::Simulation(CoupledSystem system, const StepOptions& options) : system_(std::move(system)), options_(options) {
+  if (options_.method == nullptr) throw std::invalid_argument("Simulation: no method given");
+  if (!(options_.step > 0.0) || !std::isfinite(options_.step)) throw std::invalid_argument("Simulation: step " + std::to_string(options_.step) + " s, expected a positive number");
+  if (options_.paper_tolerance) {
+    if (!(options_.revolution > 0.0)) throw std::invalid_argument("Simulation: the paper's tolerance rule needs the time of one revolution");
+    options_.solver.tolerance = paperTolerance(options_);
+  }
+  x0_ = x_ = system_.initialState();
+  if (const Index i = firstNonFinite(x_.data(), x_.size()); i >= 0) throw std::invalid_argument("Simulation: the initial state " + std::to_string(i) + " is not finite");
+  stage_ = next_ = Vector::Zero(x_.size());
+  w_ = system_.defaultCommand();
+  remainders_.assign(static_cast<std::size_t>(options_.method->stages() * x_.size()), 0.0);
+  for (const CoupledSystem::Subsystem& subsystem : system_.subsystems())
+    propagators_.push_back(subsystem.x_size > 0 ? makePropagator(subsystem.stiff, options_.step, *options_.method) : nullptr);
+  solver_ = std::make_unique<AlgebraicSolver>(system_, options_.solver, t0_, x_, w_);
+  initial_cache_ = solver_->cache();
+}
+
+Simulation::~Simulation() = default;
+
+bool Simulation::solveStage(double t, const Vector& x, const Vector& w) noexcept {
+  failure_report_ = solver_->solve(t, x, w);
+  if (failure_report_.status == SolveStatus::kConverged) return true;
+  status_ = StepStatus::kSolverStalled;
+  if (failure_report_.status == SolveStatus::kNonFinite) status_ = StepStatus::kNonFinite;
+  failure_time_ = t;
+  failure_entry_ = failure_report_.entry;
+  failure_in_output_ = true;
+  return false;
+}
+
+bool Simulation::stateIsFinite(const Vector& x, double t) noexcept {
+  const Index i = firstNonFinite(x.data(), x.size());
+  if (i < 0) return true;
+  status_ = StepStatus::kNonFinite;
+  failure_time_ = t;
+  failure_entry_ = i;
+  failure_in_output_ = false;
+  return false;
+}
+
+void Simulation::combine(int row, Vector& result) const noexcept {
+  for (std::size_t k = 0; k < propagators_.size(); ++k) {
+    if (!propagators_[k]) continue;
+    const Index begin = system_.subsystems()[k].x_begin;
+    propagators_[k]->combine(row, x_.data() + begin, remainders_.data() + begin, x_.size(), result.data() + begin);
+  }
+}
+
+StepStatus Simulation::observe(const Vector& command) noexcept {
+  // A failed instant stays failed until reset() or restore(): going on from it would publish what is not a solution.
+  if (status_ != StepStatus::kOk) return status_;
+  if (!solved_ || std::memcmp(w_.data(), command.data(), static_cast<std::size_t>(w_.size()) * sizeof(double)) != 0) {
+    w_ = command;
+    if (!solveStage(modelTime(), x_, w_)) return status_;
+    solved_ = true;
+  }
+  bool observed = false;
+  for (Observer* observer : observers_) {
+    if (!observer->wants(step_)) continue;
+    if (!observed) solver_->evalObserved(modelTime(), x_, w_);
+    observed = true;
+    observer->observe({step_, epoch_, time(), x_, w_, solver_->y(), solver_->counters()});
+  }
+  return status_;
+}
+
+StepStatus Simulation::step(const Vector& command) noexcept {
+  if (observe(command) != StepStatus::kOk) return status_;
+
+  const Tableau& method = *options_.method;
+  const bool complete = !method.exponential;
+  const double t = modelTime(), h = options_.step;
+  system_.evalRemainder(t, x_, solver_->u(), complete, remainders_.data());
+  for (int i = 1; i < method.stages(); ++i) {
+    combine(i, stage_);
+    const double stage_time = t + method.c[static_cast<std::size_t>(i)] * h;
+    if (!stateIsFinite(stage_, stage_time) || !solveStage(stage_time, stage_, w_)) return status_;
+    system_.evalRemainder(stage_time, stage_, solver_->u(), complete, remainders_.data() + i * x_.size());
+  }
+  combine(method.stages(), next_);
+  if (!stateIsFinite(next_, t + h)) return status_;
+  x_.swap(next_);
+  ++step_;
+  solved_ = false;
+  return status_;
+}
+
+void Simulation::reset() {
+  x_ = x0_;
+  w_ = system_.defaultCommand();
+  solver_->restoreCache(initial_cache_);
+  t0_ = 0.0;
+  step0_ = static_cast<std::int64_t>(step_);
+  ++epoch_;
+  solved_ = false;
+  status_ = StepStatus::kOk;
+}
+
+void Simulation::setState(const Vector& x) {
+  if (x.size() != x_.size()) throw std::invalid_argument("Simulation::setState: " + std::to_string(x.size()) + " values, expected " + std::to_string(x_.size()));
+  x_ = x;
+  solved_ = false;
+  status_ = StepStatus::kOk;
+}
+
+StepFailure Simulation::failure() const {
+  StepFailure failure;
+  failure.status = status_;
+  failure.step = step_;
+  failure.t = failure_time_;
+  if (status_ == StepStatus::kOk) return failure;
+  const Signal::Kind kind = failure_in_output_ ? Signal::Kind::kOutput : Signal::Kind::kState;
+  for (const Signal& signal : system_.signals())
+    if (signal.kind == kind && signal.index == failure_entry_) failure.where = signal.name;
+  if (failure.where.empty() && !failure_in_output_)
+    for (const CoupledSystem::Subsystem& s : system_.subsystems())
+      if (failure_entry_ >= s.x_begin && failure_entry_ < s.x_begin + s.x_size)
+        failure.where = s.name + "." + s.model->states()[static_cast<std::size_t>(failure_entry_ - s.x_begin)].name;
+  if (status_ == StepStatus::kNonFinite) {
+    failure.cause = "the solution grew without bound: the step " + std::to_string(options_.step) + " s is probably too large for " + options_.method->name +
+                    (options_.method->exponential ? " (stiffness that is not in S)" : " (explicit methods need a small step; try HEERK4)") + ", or the system is unstable";
+  } else if (failure_report_.status == SolveStatus::kSingular) {
+    failure.cause = "I - dg/dy became singular: the coupled system is not index 1 in this state";
+  } else {
+    failure.cause = "Newton stopped at a residual of " + std::to_string(failure_report_.residual) + ": the solution changes too much within one step, or has no real value";
+  }
+  return failure;
+}
+
+std::uint64_t Simulation::stateHash() const {
+  std::uint64_t hash = 14695981039346656037ull;  // FNV-1a
+  const auto mix = [&hash](const void* data, std::size_t size) {
+    const auto* bytes = static_cast<const unsigned char*>(data);
+    for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 1099511628211ull;
+  };
+  const double t = modelTime();
+  mix(&t, sizeof t);
+  mix(x_.data(), static_cast<std::size_t>(x_.size()) * sizeof(double));
+  return hash;
+}
+
+Simulation::Checkpoint Simulation::checkpoint() const {
+  return {step_, step0_, epoch_, t0_, options_.step, x_, w_, solver_->cache()};
+}
+
+void Simulation::restore(const Checkpoint& checkpoint, bool new_epoch) {
+  const auto expect = [](const char* what, double found, double expected) {
+    if (found != expected) throw std::invalid_argument(std::string("snapshot: ") + what + " is " + std::to_string(found) + ", expected " + std::to_string(expected));
+  };
+  expect("number of states", static_cast<double>(checkpoint.x.size()), static_cast<double>(x_.size()));
+  expect("number of commands", static_cast<double>(checkpoint.w.size()), static_cast<double>(w_.size()));
+  expect("step size", checkpoint.h, options_.step);
+  if (firstNonFinite(checkpoint.x.data(), checkpoint.x.size()) >= 0) throw std::invalid_argument("snapshot: a state is not finite");
+  solver_->restoreCache(checkpoint.solver_cache);
+  x_ = checkpoint.x;
+  w_ = checkpoint.w;
+  t0_ = checkpoint.t0;
+  step0_ = checkpoint.step0;
+  if (new_epoch) {
+    step0_ += static_cast<std::int64_t>(step_) - static_cast<std::int64_t>(checkpoint.step);
+    ++epoch_;
+  } else {
+    step_ = checkpoint.step;
+    epoch_ = checkpoint.epoch;
+  }
+  solved_ = false;
+  status_ = StepStatus::kOk;
+}
+
+}  // namespace heerk_rotor

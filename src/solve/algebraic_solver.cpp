@@ -1,0 +1,374 @@
+#include "heerk_rotor/solve/algebraic_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "heerk_rotor/core/coupling_graph.hpp"
+#include "heerk_rotor/solve/evaluation_plan.hpp"
+#include "heerk_rotor/solve/sparse_lu.hpp"
+
+namespace heerk_rotor {
+namespace {
+
+constexpr double kLostContraction = 0.3;   // residual ratio of two iterations above which the Jacobian is refreshed
+constexpr double kDifference = 1.5e-8;     // relative step of forward differences, sqrt of the machine precision
+constexpr double kRoundOff = 64 * 2.2e-16; // a residual below this share of the value cannot be lowered any more
+
+/// A plan with the numbers that solving it needs.
+struct Loop {
+  explicit Loop(const LoopPlan& p) : plan(p), lu(p.gradient), matrix(p.gradient.rows.size(), 0.0),
+        step(p.unknowns.size(), 0.0), reference(p.unknowns.size(), 0.0), kept(p.unknowns.size(), 0.0) {}
+  LoopPlan plan;
+  SparseLu lu;
+  std::vector<double> matrix;            // I - dg/dy, in the order of plan.gradient.rows
+  bool factorized = false;
+  std::vector<double> step, reference, kept;
+  std::vector<double> jacobian;          // scratch for a model's own Jacobian
+};
+
+}  // namespace
+
+struct AlgebraicSolver::Implementation {
+  Implementation(CoupledSystem& s, const SolverOptions& o) : system(s), options(o) {}
+
+  CoupledSystem& system;
+  SolverOptions options;
+  EvaluationPlan plan;
+  std::vector<Loop> pruned, full;
+  std::vector<char> use_full;            // per loop: pruning has failed once
+  std::vector<char> is_unknown;          // per y entry, for the plan in use
+  std::vector<LoopInfo> infos;
+  SolverCounters counters;
+  std::vector<std::uint64_t> evaluations;
+
+  Vector y, u, g, last_x;                // g: latest evaluation of ports in loops
+  double last_t = 0.0;
+  bool solved_once = false;
+
+  // Change stamps: a port is up to date when neither the stage nor one of its inputs changed since its evaluation.
+  std::uint64_t clock = 1, stage_stamp = 1;
+  std::vector<std::uint64_t> input_stamp, output_stamp;
+
+  void gather(Index input, const Vector& w) noexcept {
+    if (system.gather(input, y, w, u)) input_stamp[input] = ++clock;
+  }
+
+  /// Brings g (of a port) up to date with x and u; returns without evaluating when nothing changed.
+  void evaluate(Index port, double t, const Vector& x) noexcept {
+    const CoupledSystem::Output& output = system.outputs()[port];
+    std::uint64_t newest = stage_stamp;
+    for (const Index input : output.feedthrough) newest = std::max(newest, input_stamp[input]);
+    if (output_stamp[port] >= newest) return;
+    system.evalOutput(port, t, x, u, g.data() + output.begin);
+    output_stamp[port] = ++clock;
+    ++evaluations[output.subsystem];
+  }
+
+
+  /// y of a port from g, sparing the entries that are being iterated.
+  void adopt(Index port) noexcept {
+    const CoupledSystem::Output& output = system.outputs()[port];
+    for (Index e = output.begin; e < output.begin + output.size; ++e)
+      if (!is_unknown[e]) y[e] = g[e];
+  }
+
+  /// Residual g - y of the unknowns into loop.step; the scaled maximum norm (see SolveReport) and its entry.
+  double residual(Loop& loop, double t, const Vector& x, const Vector& w, Index& worst) noexcept {
+    ++counters.residual_evaluations;
+    for (const Index input : loop.plan.core_inputs) gather(input, w);
+    double norm = 0.0;
+    std::size_t k = 0;
+    for (const Index port : loop.plan.core) {
+      evaluate(port, t, x);
+      const CoupledSystem::Output& output = system.outputs()[port];
+      for (; k < loop.plan.unknowns.size() && loop.plan.unknowns[k] < output.begin + output.size; ++k) {
+        const Index e = loop.plan.unknowns[k];
+        loop.step[k] = g[e] - y[e];
+        // Over the port's nominal magnitude; only round-off of a large value may widen that, else a loop gain of 700, as in the
+        // lag rotor, would turn "1e-12 of a large value" into an error that shows in the trajectory.
+        double scaled = std::abs(loop.step[k]) / std::max(output.nominal, std::abs(y[e]) * (kRoundOff / options.tolerance));
+        if (!std::isfinite(scaled)) scaled = HUGE_VAL;
+        if (scaled > norm) {
+          norm = scaled;
+          worst = e;
+        }
+      }
+    }
+    return norm;
+  }
+
+  double nominalOf(Index entry) const noexcept {
+    for (const CoupledSystem::Output& output : system.outputs())
+      if (entry < output.begin + output.size) return output.nominal;
+    return 1.0;
+  }
+
+  /// matrix = I - dg/dy at the present y: forward differences colour by colour, then the rows models know themselves.
+  bool refresh(Loop& loop, double t, const Vector& x, const Vector& w) noexcept {
+    ++counters.jacobians;
+    const LoopPlan& p = loop.plan;
+    const auto n = p.unknowns.size();
+    Index unused = -1;
+    residual(loop, t, x, w, unused);
+    for (std::size_t k = 0; k < n; ++k) {
+      loop.reference[k] = g[p.unknowns[k]];
+      loop.kept[k] = y[p.unknowns[k]];
+    }
+    for (Index colour = 0; colour < p.colours; ++colour) {
+      for (std::size_t j = 0; j < n; ++j) {
+        if (p.colour[j] != colour) continue;
+        const Index e = p.unknowns[j];
+        y[e] = loop.kept[j] + kDifference * std::max(std::abs(loop.kept[j]), nominalOf(e));
+      }
+      residual(loop, t, x, w, unused);
+      for (std::size_t j = 0; j < n; ++j) {
+        if (p.colour[j] != colour) continue;
+        const double width = y[p.unknowns[j]] - loop.kept[j];
+        for (Index q = p.gradient.start[j]; q < p.gradient.start[j + 1]; ++q) {
+          const Index i = p.gradient.rows[q];
+          const double slope = (g[p.unknowns[i]] - loop.reference[i]) / width;
+          loop.matrix[q] = (i == static_cast<Index>(j) ? 1.0 : 0.0) - slope;
+        }
+        y[p.unknowns[j]] = loop.kept[j];
+      }
+    }
+    residual(loop, t, x, w, unused);  // u and g belong to y again
+    applyModelJacobians(loop, t, x);
+    ++counters.factorizations;
+    loop.factorized = loop.lu.factorize(loop.matrix);
+    return loop.factorized;
+  }
+
+  /// Replaces differenced rows by exact ones where a model knows d(port)/d(u): an unknown y_j reaches the inputs it feeds.
+  void applyModelJacobians(Loop& loop, double t, const Vector& x) noexcept {
+    const LoopPlan& p = loop.plan;
+    for (const Index port : p.core) {
+      const CoupledSystem::Output& output = system.outputs()[port];
+      const CoupledSystem::Subsystem& owner = system.subsystems()[output.subsystem];
+      Eigen::Map<Matrix> jacobian(loop.jacobian.data(), output.size, owner.u_size);
+      jacobian.setZero();
+      if (!owner.model->outputJacobian(output.port, t, In(x.data() + owner.x_begin, owner.x_size), In(u.data() + owner.u_begin, owner.u_size), jacobian)) continue;
+      for (std::size_t j = 0; j < p.unknowns.size(); ++j) {
+        for (Index q = p.gradient.start[j]; q < p.gradient.start[j + 1]; ++q) {
+          const Index i = p.gradient.rows[q], row = p.unknowns[i] - output.begin;
+          if (row < 0 || row >= output.size) continue;
+          double slope = 0.0;
+          for (const Index number : output.feedthrough) {
+            const CoupledSystem::Input& input = system.inputs()[number];
+            for (const Index source : input.sources) {
+              const Index offset = p.unknowns[j] - system.outputs()[source].begin;
+              if (offset >= 0 && offset < input.size) slope += jacobian(row, input.begin - owner.u_begin + offset);
+            }
+          }
+          loop.matrix[q] = (i == static_cast<Index>(j) ? 1.0 : 0.0) - slope;
+        }
+      }
+    }
+  }
+
+  /// Simplified Newton; the LU is kept as long as the residual contracts.
+  SolveReport iterate(Loop& loop, double t, const Vector& x, const Vector& w) noexcept {
+    SolveReport report;
+    bool fresh = false;
+    double previous = HUGE_VAL;
+    for (;; ++report.iterations) {
+      report.residual = residual(loop, t, x, w, report.entry);
+      if (report.residual <= options.tolerance) return report;
+      const bool contracts = report.residual <= kLostContraction * previous;
+      if (!contracts && report.residual <= kRoundOff) return report;
+      if (report.iterations >= options.max_iterations) break;
+      if (!std::isfinite(report.residual) && report.iterations > 0) break;
+      if (!loop.factorized || (!contracts && report.iterations > 0 && !fresh)) {
+        if (!refresh(loop, t, x, w)) {
+          report.status = SolveStatus::kSingular;
+          return report;
+        }
+        fresh = true;
+        report.residual = residual(loop, t, x, w, report.entry);
+      } else {
+        fresh = false;
+      }
+      previous = report.residual;
+      loop.lu.solve(loop.step.data());
+      for (std::size_t k = 0; k < loop.plan.unknowns.size(); ++k) y[loop.plan.unknowns[k]] += loop.step[k];
+      ++counters.newton_iterations;
+    }
+    report.status = std::isfinite(report.residual) ? SolveStatus::kStalled : SolveStatus::kNonFinite;
+    return report;
+  }
+
+  /// After everything is known: does each port of the component still agree with what was used?
+  bool consistent(const Loop& loop, double t, const Vector& x, const Vector& w, Index& worst) noexcept {
+    const double tolerance = 10.0 * std::max(options.tolerance, kRoundOff);
+    for (const Index input : loop.plan.inner_inputs) gather(input, w);
+    for (const Index port : loop.plan.outputs) {
+      evaluate(port, t, x);
+      const CoupledSystem::Output& output = system.outputs()[port];
+      for (Index e = output.begin; e < output.begin + output.size; ++e)
+        if (!(std::abs(g[e] - y[e]) <= tolerance * std::max(output.nominal, std::abs(y[e])))) {
+          worst = e;
+          return false;
+        }
+    }
+    return true;
+  }
+
+  void evaluateInOrder(const LoopPlan& p, const std::vector<Index>& ports, double t, const Vector& x, const Vector& w) noexcept {
+    for (const Index port : ports) {
+      for (const Index input : p.inner_inputs) gather(input, w);
+      evaluate(port, t, x);
+      adopt(port);
+    }
+  }
+
+  void markUnknowns(std::size_t number) noexcept {
+    for (const Index e : full[number].plan.unknowns) is_unknown[e] = 0;
+    for (const Index e : current(number).plan.unknowns) is_unknown[e] = 1;
+  }
+  Loop& current(std::size_t number) noexcept { return use_full[number] ? full[number] : pruned[number]; }
+
+  SolveReport solveLoop(std::size_t number, double t, const Vector& x, const Vector& w) noexcept {
+    Loop& loop = current(number);
+    evaluateInOrder(loop.plan, loop.plan.before, t, x, w);
+    SolveReport report;
+    if (!loop.plan.unknowns.empty()) report = iterate(loop, t, x, w);
+    for (const Index port : loop.plan.core) adopt(port);
+    evaluateInOrder(loop.plan, loop.plan.after, t, x, w);
+    const bool good = report.status == SolveStatus::kConverged && consistent(loop, t, x, w, report.entry);
+    if (good || use_full[number]) return report;
+
+    // Either a pruned zero became nonzero, or the pruned pattern hides what convergence needs: solve the whole loop.
+    if (report.status == SolveStatus::kConverged) ++counters.pruning_failures;
+    use_full[number] = 1;
+    markUnknowns(number);
+    return solveLoop(number, t, x, w);
+  }
+
+  SolveReport solve(double t, const Vector& x, const Vector& w) noexcept {
+    ++counters.solves;
+    const auto bytes = static_cast<std::size_t>(x.size()) * sizeof(double);
+    if (!solved_once || t != last_t || (bytes > 0 && std::memcmp(x.data(), last_x.data(), bytes) != 0)) {
+      stage_stamp = ++clock;
+      last_t = t;
+      if (bytes > 0) std::memcpy(last_x.data(), x.data(), bytes);
+      solved_once = true;
+    }
+    SolveReport worst;
+    for (const EvaluationPlan::Item& item : plan.stage) {
+      for (const Index input : item.inputs) gather(input, w);
+      if (item.output >= 0) {
+        evaluate(item.output, t, x);
+        adopt(item.output);
+        continue;
+      }
+      const SolveReport report = solveLoop(static_cast<std::size_t>(item.loop), t, x, w);
+      if (report.status != SolveStatus::kConverged) {
+        solved_once = false;
+        return report;
+      }
+      worst.iterations += report.iterations;
+      if (report.residual > worst.residual) {
+        worst.residual = report.residual;
+        worst.entry = report.entry;
+      }
+    }
+    for (const Index input : plan.last_inputs) gather(input, w);
+    return worst;
+  }
+};
+
+AlgebraicSolver::AlgebraicSolver(CoupledSystem& system, const SolverOptions& options, double t, const Vector& x, const Vector& w)
+    : impl_(std::make_unique<Implementation>(system, options)) {
+  Implementation& s = *impl_;
+  s.plan = planEvaluation(system, t, x, w);
+  s.y = s.g = Vector::Zero(system.outputSize());
+  s.u = Vector::Zero(system.inputSize());
+  s.last_x = Vector::Zero(system.stateSize());
+  s.input_stamp.assign(system.inputs().size(), 0);
+  s.output_stamp.assign(system.outputs().size(), 0);
+  s.evaluations.assign(system.subsystems().size(), 0);
+  s.is_unknown.assign(static_cast<std::size_t>(system.outputSize()), 0);
+  s.use_full.assign(s.plan.pruned.size(), options.prune ? 0 : 1);
+  for (std::size_t l = 0; l < s.plan.pruned.size(); ++l) {
+    s.pruned.emplace_back(s.plan.pruned[l]);
+    s.full.emplace_back(s.plan.full[l]);
+    std::size_t largest = 0;
+    for (const Index port : s.plan.full[l].outputs) {
+      const CoupledSystem::Output& output = system.outputs()[port];
+      largest = std::max(largest, static_cast<std::size_t>(output.size * system.subsystems()[output.subsystem].u_size));
+    }
+    s.pruned.back().jacobian.assign(largest, 0.0);
+    s.full.back().jacobian.assign(largest, 0.0);
+    s.markUnknowns(l);
+  }
+  for (const CoupledSystem::Input& input : system.inputs())  // constants and commands, before anything reads them
+    s.gather(&input - system.inputs().data(), w);
+
+  // The first solution also proves that the system is index 1 here.
+  const SolveReport report = s.solve(t, x, w);
+  for (std::size_t l = 0; l < s.pruned.size(); ++l) {
+    const Loop& loop = s.current(l);
+    s.infos.push_back({loop.plan.outputs, static_cast<Index>(s.plan.full[l].unknowns.size()), loop.plan.unknowns,
+                       loop.plan.gradient.nonzeros(), loop.lu.factorNonzeros()});
+  }
+  if (report.status == SolveStatus::kConverged) return;
+  std::string ports;
+  for (const LoopPlan& loop : s.plan.full)
+    for (const Index port : loop.outputs) ports += (ports.empty() ? "" : ", ") + system.outputs()[port].name;
+  throw CouplingError(report.status == SolveStatus::kSingular
+      ? "the algebraic loop through " + ports + " is not index 1: I - dg/dy is singular at the initial state"
+      : "the algebraic loop through " + ports + " has no solution near the initial state (Newton did not converge)");
+}
+
+AlgebraicSolver::~AlgebraicSolver() = default;
+
+SolveReport AlgebraicSolver::solve(double t, const Vector& x, const Vector& w) noexcept { return impl_->solve(t, x, w); }
+
+void AlgebraicSolver::evalObserved(double t, const Vector& x, const Vector& w) noexcept {
+  for (const EvaluationPlan::Item& item : impl_->plan.observed) {
+    for (const Index input : item.inputs) impl_->gather(input, w);
+    impl_->evaluate(item.output, t, x);
+    impl_->adopt(item.output);
+  }
+}
+
+const Vector& AlgebraicSolver::y() const { return impl_->y; }
+const Vector& AlgebraicSolver::u() const { return impl_->u; }
+const SolverCounters& AlgebraicSolver::counters() const { return impl_->counters; }
+const std::vector<std::uint64_t>& AlgebraicSolver::outputEvaluations() const { return impl_->evaluations; }
+const std::vector<LoopInfo>& AlgebraicSolver::loops() const { return impl_->infos; }
+SolverOptions& AlgebraicSolver::options() { return impl_->options; }
+
+std::vector<double> AlgebraicSolver::cache() const {
+  std::vector<double> cache(impl_->y.begin(), impl_->y.end());
+  for (std::size_t l = 0; l < impl_->pruned.size(); ++l) {
+    cache.push_back(impl_->use_full[l]);
+    for (const Loop* loop : {&impl_->pruned[l], &impl_->full[l]}) {
+      cache.push_back(loop->factorized);
+      cache.insert(cache.end(), loop->matrix.begin(), loop->matrix.end());
+    }
+  }
+  return cache;
+}
+
+void AlgebraicSolver::restoreCache(const std::vector<double>& cache) {
+  if (cache.size() != this->cache().size())
+    throw std::invalid_argument("solver cache has " + std::to_string(cache.size()) + " values, expected " + std::to_string(this->cache().size()));
+  auto value = cache.begin();
+  std::copy_n(value, impl_->y.size(), impl_->y.begin());
+  value += impl_->y.size();
+  for (std::size_t l = 0; l < impl_->pruned.size(); ++l) {
+    impl_->use_full[l] = *value++ != 0.0;
+    for (Loop* loop : {&impl_->pruned[l], &impl_->full[l]}) {
+      const bool factorized = *value++ != 0.0;
+      std::copy_n(value, loop->matrix.size(), loop->matrix.begin());
+      value += static_cast<std::ptrdiff_t>(loop->matrix.size());
+      loop->factorized = factorized && loop->lu.factorize(loop->matrix);
+    }
+    impl_->markUnknowns(l);
+  }
+  impl_->solved_once = false;  // everything is evaluated again
+}
+
+}  // namespace heerk_rotor

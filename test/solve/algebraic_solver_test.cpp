@@ -1,0 +1,212 @@
+#include "heerk_rotor/solve/algebraic_solver.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "function_model.hpp"
+#include "heerk_rotor/core/coupling_graph.hpp"
+
+namespace heerk_rotor {
+namespace {
+
+const Vector kNone = Vector::Zero(0);
+
+SolverOptions tight(bool prune = true) {
+  SolverOptions options;
+  options.tolerance = 1e-13;
+  options.prune = prune;
+  return options;
+}
+
+/// a.out = (2 x, cos(in), x + 0.1 in), b.out = 0.5 (second + third entry of a): only the last two entries of a and b are in the loop.
+CoupledSystem partLoop() {
+  CouplingGraph graph;
+  graph.add("a", FunctionModel().state("x", 0.3).input("in").output("out", 3, {"in"},
+      [](double, const In& x, const In& u, Out y) { y << 2.0 * x[0], std::cos(u[0]), x[0] + 0.1 * u[0]; })
+      .derivatives([](double, const In&, const In&, Out xdot) { xdot[0] = 0.0; }).make());
+  graph.add("b", FunctionModel().input("in", 3).output("out", 1, {"in"}, [](double, const In&, const In& u, Out y) { y[0] = 0.5 * (u[1] + u[2]); }).make());
+  graph.connect("a.out", "b.in");
+  graph.connect("b.out", "a.in");
+  return std::move(graph).build();
+}
+
+TEST(AlgebraicSolver, iteratesOnlyEntriesOfTheLoop) {
+  CoupledSystem system = partLoop();
+  const Vector x = system.initialState();
+  AlgebraicSolver solver(system, tight(), 0.0, x, kNone);
+  ASSERT_EQ(solver.loops().size(), 1u);
+  EXPECT_EQ(solver.loops()[0].entries, 4);
+  EXPECT_EQ(solver.loops()[0].unknowns, (std::vector<Index>{1, 2, 3}));  // a.out_1 depends on the state alone
+
+  double z = 0.5;  // fixed point of z = (cos z + 0.3 + 0.1 z) / 2, contracting
+  for (int i = 0; i < 200; ++i) z = 0.5 * (std::cos(z) + 0.3 + 0.1 * z);
+  EXPECT_NEAR(solver.y()[3], z, 1e-12);
+  EXPECT_EQ(solver.y()[0], 0.6);
+}
+
+TEST(AlgebraicSolver, prunedAndUnprunedAgree) {
+  CoupledSystem first = partLoop(), second = partLoop();
+  Vector x = first.initialState();
+  AlgebraicSolver pruned(first, tight(), 0.0, x, kNone), full(second, tight(false), 0.0, x, kNone);
+  EXPECT_LT(pruned.loops()[0].unknowns.size(), full.loops()[0].unknowns.size());
+  for (int k = 0; k < 50; ++k) {
+    x[0] = std::sin(0.1 * k);
+    ASSERT_EQ(pruned.solve(0.1 * k, x, kNone).status, SolveStatus::kConverged);
+    ASSERT_EQ(full.solve(0.1 * k, x, kNone).status, SolveStatus::kConverged);
+    EXPECT_LT((pruned.y() - full.y()).cwiseAbs().maxCoeff(), 1e-12) << k;  // both to 1e-13, gain of the loop below 10
+  }
+  EXPECT_EQ(pruned.counters().pruning_failures, 0u);
+}
+
+TEST(AlgebraicSolver, solvesWhereSweepsDiverge) {
+  // y1 = 3 y2 + x, y2 = 2 y1 - 1: loop gain 6, so repeated substitution diverges; y1 = (3 - x) / 5.
+  CouplingGraph graph;
+  graph.add("a", FunctionModel().state("x", 1.0).input("in").output("out", 1, {"in"}, [](double, const In& x, const In& u, Out y) { y[0] = 3.0 * u[0] + x[0]; })
+      .derivatives([](double, const In&, const In&, Out xdot) { xdot[0] = 0.0; }).make());
+  graph.add("b", FunctionModel().input("in").output("out", 1, {"in"}, [](double, const In&, const In& u, Out y) { y[0] = 2.0 * u[0] - 1.0; }).make());
+  graph.connect("a.out", "b.in");
+  graph.connect("b.out", "a.in");
+  CoupledSystem system = std::move(graph).build();
+  AlgebraicSolver solver(system, tight(), 0.0, system.initialState(), kNone);
+  EXPECT_NEAR(solver.y()[0], 0.4, 1e-12);
+}
+
+TEST(AlgebraicSolver, refusesLoopsThatAreNotIndexOne) {
+  CouplingGraph graph;  // y1 = y2, y2 = y1 + sin x: no unique solution
+  graph.add("a", FunctionModel().state("x", 1.0).input("in").output("out", 1, {"in"}, [](double, const In& x, const In& u, Out y) { y[0] = u[0] + std::sin(x[0]); })
+      .derivatives([](double, const In&, const In&, Out xdot) { xdot[0] = 0.0; }).make());
+  graph.add("b", FunctionModel().input("in").output("out", 1, {"in"}, [](double, const In&, const In& u, Out y) { y[0] = u[0]; }).make());
+  graph.connect("a.out", "b.in");
+  graph.connect("b.out", "a.in");
+  CoupledSystem system = std::move(graph).build();
+  const Vector x = system.initialState();
+  try {
+    AlgebraicSolver solver(system, tight(), 0.0, x, kNone);
+    FAIL() << "accepted a singular loop";
+  } catch (const CouplingError& error) {
+    EXPECT_NE(std::string(error.what()).find("a.out"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("not index 1"), std::string::npos) << error.what();
+  }
+}
+
+/// The gradient entry d a.out_1 / d in is exactly zero until x exceeds 10, far from where the plan is made.
+CoupledSystem lateCoupling() {
+  CouplingGraph graph;
+  graph.add("a", FunctionModel().state("x", 0.0).input("in").output("out", 2, {"in"},
+      [](double, const In& x, const In& u, Out y) { y << 1.0 + std::max(0.0, x[0] - 10.0) * u[0], 0.5 * u[0] + x[0]; })
+      .derivatives([](double, const In&, const In&, Out xdot) { xdot[0] = 0.0; }).make());
+  graph.add("b", FunctionModel().input("in", 2).output("out", 1, {"in"}, [](double, const In&, const In& u, Out y) { y[0] = 0.2 * u[0] + 0.3 * u[1]; }).make());
+  graph.connect("a.out", "b.in");
+  graph.connect("b.out", "a.in");
+  return std::move(graph).build();
+}
+
+TEST(AlgebraicSolver, detectsAPrunedZeroThatBecameNonzeroAndStaysRight) {
+  CoupledSystem system = lateCoupling();
+  Vector x = system.initialState();
+  AlgebraicSolver solver(system, tight(), 0.0, x, kNone);
+  EXPECT_EQ(solver.loops()[0].unknowns.size(), 2u);
+  EXPECT_EQ(solver.counters().pruning_failures, 0u);
+
+  x[0] = 11.0;
+  ASSERT_EQ(solver.solve(1.0, x, kNone).status, SolveStatus::kConverged);
+  EXPECT_EQ(solver.counters().pruning_failures, 1u);
+  // z = 0.2 (1 + z) + 0.3 (0.5 z + 11)
+  const double z = (0.2 + 3.3) / (1.0 - 0.2 - 0.15);
+  EXPECT_NEAR(solver.y()[2], z, 1e-12);
+  EXPECT_NEAR(solver.y()[0], 1.0 + z, 1e-12);
+}
+
+TEST(AlgebraicSolver, keepsFactorizationWhileContracting) {
+  CoupledSystem system = partLoop();
+  Vector x = system.initialState();
+  AlgebraicSolver solver(system, tight(), 0.0, x, kNone);
+  const auto before = solver.counters().factorizations;
+  for (int k = 1; k <= 200; ++k) {
+    x[0] = 0.3 + 1e-3 * k;
+    solver.solve(k, x, kNone);
+  }
+  EXPECT_EQ(solver.counters().factorizations, before);
+  EXPECT_EQ(solver.counters().solves, 201u);
+}
+
+TEST(AlgebraicSolver, refreshesTheJacobianWhenContractionIsLost) {
+  // y = x sin(3 y') through a pass-through: the slope turns over as x grows.
+  CouplingGraph graph;
+  graph.add("a", FunctionModel().state("x", 0.1).input("in").output("out", 1, {"in"}, [](double, const In& x, const In& u, Out y) { y[0] = 1.0 - x[0] * std::exp(u[0]); })
+      .derivatives([](double, const In&, const In&, Out xdot) { xdot[0] = 0.0; }).make());
+  graph.add("b", FunctionModel().input("in").output("out", 1, {"in"}, [](double, const In&, const In& u, Out y) { y[0] = u[0]; }).make());
+  graph.connect("a.out", "b.in");
+  graph.connect("b.out", "a.in");
+  CoupledSystem system = std::move(graph).build();
+  Vector x = system.initialState();
+  AlgebraicSolver solver(system, tight(), 0.0, x, kNone);
+  const auto before = solver.counters().factorizations;
+  x[0] = 40.0;
+  ASSERT_EQ(solver.solve(1.0, x, kNone).status, SolveStatus::kConverged);
+  EXPECT_GT(solver.counters().factorizations, before);
+  EXPECT_NEAR(solver.y()[0], 1.0 - 40.0 * std::exp(solver.y()[0]), 1e-11);
+}
+
+TEST(AlgebraicSolver, doesNotEvaluateAgainWhatDidNotChange) {
+  CoupledSystem system = partLoop();
+  const Vector x = system.initialState();
+  AlgebraicSolver solver(system, tight(), 0.0, x, kNone);
+  const auto before = solver.outputEvaluations();
+  ASSERT_EQ(solver.solve(0.0, x, kNone).status, SolveStatus::kConverged);  // the same instant
+  EXPECT_EQ(solver.outputEvaluations(), before);
+}
+
+TEST(AlgebraicSolver, reportsALoopWithoutSolution) {
+  // y = y^2 + 1 + x has no real root for x >= 0.
+  CouplingGraph graph;
+  graph.add("a", FunctionModel().state("x", -2.0).input("in").output("out", 1, {"in"}, [](double, const In& x, const In& u, Out y) { y[0] = u[0] * u[0] + 1.0 + x[0]; })
+      .derivatives([](double, const In&, const In&, Out xdot) { xdot[0] = 0.0; }).make());
+  graph.connect("a.out", "a.in");
+  CoupledSystem system = std::move(graph).build();
+  Vector x = system.initialState();
+  AlgebraicSolver solver(system, tight(), 0.0, x, kNone);  // y^2 - y - 1 = 0 is fine
+  EXPECT_NEAR(solver.y()[0] * solver.y()[0] - 1.0, solver.y()[0], 1e-12);
+  x[0] = 1.0;
+  const SolveReport report = solver.solve(1.0, x, kNone);
+  EXPECT_NE(report.status, SolveStatus::kConverged);
+  EXPECT_EQ(report.entry, 0);
+}
+
+TEST(AlgebraicSolver, restoredCacheContinuesBitwise) {
+  CoupledSystem first = partLoop(), second = partLoop();
+  Vector x = first.initialState();
+  AlgebraicSolver a(first, tight(), 0.0, x, kNone), b(second, tight(), 0.0, x, kNone);
+  for (int k = 0; k < 30; ++k) {
+    x[0] = std::sin(0.3 * k);
+    a.solve(k, x, kNone);
+  }
+  b.restoreCache(a.cache());
+  for (int k = 30; k < 60; ++k) {
+    x[0] = std::sin(0.3 * k);
+    a.solve(k, x, kNone);
+    b.solve(k, x, kNone);
+    ASSERT_EQ(a.y(), b.y()) << k;
+  }
+  EXPECT_THROW(b.restoreCache({1.0}), std::invalid_argument);
+}
+
+TEST(AlgebraicSolver, solvesTwoLoopsInOrderOfDependency) {
+  // Loop 1: z = 0.5 z + x; loop 2 reads it: v = 0.25 v + z. Declared in the wrong order on purpose.
+  CouplingGraph graph;
+  graph.add("late", FunctionModel().input("own").input("z").output("v", 1, {"own", "z"}, [](double, const In&, const In& u, Out y) { y[0] = 0.25 * u[0] + u[1]; }).make());
+  graph.add("early", FunctionModel().state("x", 3.0).input("own").output("z", 1, {"own"}, [](double, const In& x, const In& u, Out y) { y[0] = 0.5 * u[0] + x[0]; })
+      .derivatives([](double, const In&, const In&, Out xdot) { xdot[0] = 0.0; }).make());
+  graph.connect("late.v", "late.own");
+  graph.connect("early.z", "late.z");
+  graph.connect("early.z", "early.own");
+  CoupledSystem system = std::move(graph).build();
+  AlgebraicSolver solver(system, tight(), 0.0, system.initialState(), kNone);
+  ASSERT_EQ(solver.loops().size(), 2u);
+  EXPECT_NEAR(solver.y()[1], 6.0, 1e-12);
+  EXPECT_NEAR(solver.y()[0], 8.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace heerk_rotor
