@@ -27,7 +27,7 @@ class MatrixPropagator final : public LinearPropagator {
       std::copy_n(x, size_, result);
       return;
     }
-    const Sources from = {x, remainders, stride};
+    const RowPlan::Columns from = {x, remainders, stride};
     switch (size_) {
       case 1: return combineSmall<1>(range, from, result);
       case 2: return combineSmall<2>(range, from, result);
@@ -41,25 +41,17 @@ class MatrixPropagator final : public LinearPropagator {
   static constexpr Index kSmall = 4;
   static constexpr int kTile = 16;  // rows of a tile: with four columns in flight eight AVX-512 sums, enough to hide the latency of a FMA
 
-  struct Sources {
-    const double* x;
-    const double* remainders;
-    Index stride;
-    const double* column(int c) const { return c == RowPlan::kState ? x : remainders + c * stride; }
-    const double* second(int c) const { return c == RowPlan::kNone ? nullptr : column(c); }
-  };
-
   Index lanes() const { return size_ <= kSmall ? size_ : kTile; }
   Index tiles() const { return size_ == 0 ? 0 : (size_ + lanes() - 1) / lanes(); }
 
   /// Everything in registers.
   template <int N>
-  void combineSmall(RowPlan::Row range, const Sources& from, double* __restrict result) const noexcept {
+  void combineSmall(RowPlan::Row range, const RowPlan::Columns& from, double* __restrict result) const noexcept {
     double sum[N] = {};
     for (int p = range.begin; p < range.end; ++p) {
       const RowPlan::Product& product = plan_.products[p];
-      const double* a = from.column(product.first);
-      const double* b = from.second(product.second);
+      const double* a = from.first(product);
+      const double* b = from.second(product);
       const double* m = table_.data() + N * N * product.entry;
       for (int j = 0; j < N; ++j) {
         const double s = b ? a[j] + b[j] : a[j];
@@ -70,15 +62,15 @@ class MatrixPropagator final : public LinearPropagator {
   }
 
   /// Tile by tile: the table is read once, in order, and the sums stay in registers over all products of the row.
-  void combineTiles(RowPlan::Row range, const Sources& from, double* __restrict result) const noexcept {
+  void combineTiles(RowPlan::Row range, const RowPlan::Columns& from, double* __restrict result) const noexcept {
     using Lanes = Eigen::Array<double, kTile, 1>;
     for (Index tile = 0, row = 0; row < size_; ++tile, row += kTile) {
       Lanes sum[4] = {Lanes::Zero(), Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
       for (int p = range.begin; p < range.end; ++p) {
         const RowPlan::Product& product = plan_.products[p];
         const double* m = table_.data() + (product.entry * tiles() + tile) * size_ * kTile;
-        const double* a = from.column(product.first);
-        if (const double* b = from.second(product.second))
+        const double* a = from.first(product);
+        if (const double* b = from.second(product))
           accumulate(m, [a, b](Index j) { return a[j] + b[j]; }, sum);
         else
           accumulate(m, [a](Index j) { return a[j]; }, sum);

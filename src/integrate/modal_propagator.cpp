@@ -30,7 +30,7 @@ class PairPropagator final : public LinearPropagator {
       std::copy_n(x, 2 * pairs_, result);
       return;
     }
-    const Sources from = {x, remainders, stride};
+    const RowPlan::Columns from = {x, remainders, stride};
     Index pair = 0;
     for (; pair + kLanes <= pairs_; pair += kLanes) combineLanes<kLanes>(range, from, pair, result);
     for (; pair + 4 <= pairs_; pair += 4) combineLanes<4>(range, from, pair, result);
@@ -41,27 +41,19 @@ class PairPropagator final : public LinearPropagator {
   static constexpr Index kLine = 8;  // doubles per cache line: a load must not straddle two
   static constexpr int kLanes = 16;  // two AVX-512 or four AVX registers per sum: enough independent chains to hide the latency
 
-  struct Sources {
-    const double* x;
-    const double* remainders;
-    Index stride;
-    const double* column(int c) const { return c == RowPlan::kState ? x : remainders + c * stride; }
-  };
-
   /// N neighbouring pairs: the sums stay in registers over all products of the row.
   template <int N>
-  void combineLanes(RowPlan::Row range, const Sources& from, Index pair, double* __restrict result) const noexcept {
+  void combineLanes(RowPlan::Row range, const RowPlan::Columns& from, Index pair, double* __restrict result) const noexcept {
     using Lanes = Eigen::Array<double, N, 1>;
     using Load = Eigen::Map<const Lanes>;
     Lanes q = Lanes::Zero(), v = Lanes::Zero();
     for (int p = range.begin; p < range.end; ++p) {
       const RowPlan::Product& product = plan_.products[p];
-      const double* a = from.column(product.first) + pair;
+      const double* a = from.first(product) + pair;
       Lanes a_q = Load(a), a_v = Load(a + pairs_);
-      if (product.second != RowPlan::kNone) {
-        const double* b = from.column(product.second) + pair;
-        a_q += Load(b);
-        a_v += Load(b + pairs_);
+      if (const double* b = from.second(product)) {
+        a_q += Load(b + pair);
+        a_v += Load(b + pairs_ + pair);
       }
       const double* c = table_.data() + 4 * pitch_ * product.entry + pair;
       q += Load(c) * a_q + Load(c + pitch_) * a_v;

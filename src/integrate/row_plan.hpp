@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "heerk_rotor/core/types.hpp"
 #include "heerk_rotor/integrate/tableau.hpp"
 
 namespace heerk_rotor {
@@ -24,6 +25,15 @@ struct RowPlan {
   struct Row {
     int begin;  // products [begin, end); none: the row is x itself
     int end;
+  };
+
+  /// The arguments of `combine` as columns.
+  struct Columns {
+    const double* x;
+    const double* remainders;
+    Index stride;
+    const double* first(const Product& product) const { return product.first == kState ? x : remainders + product.first * stride; }
+    const double* second(const Product& product) const { return product.second == kNone ? nullptr : remainders + product.second * stride; }
   };
 
   std::vector<Entry> entries;

@@ -6,11 +6,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "heerk_rotor/integrate/phi_functions.hpp"
+
 namespace heerk_rotor {
 namespace {
 
-constexpr int kMaxK = 4;               // largest k for which phi_k is tabulated (see phi_functions.hpp)
-constexpr double kWeightError = 1e-14; // sums of a few weights of size <= 18, each rounded once
+constexpr double kWeightError = 1e-14;  // sums of a few weights of size <= 18, each rounded once
 
 /// The classical entry "a number": phi_0(0) = 1.
 Coefficient number(double value) { return {{0, 0.0, value}}; }
@@ -99,8 +100,8 @@ bool known(double node, const Tableau& tableau) {
 std::string checkTerms(const Tableau& tableau, int row, const Coefficient& coefficient) {
   std::ostringstream wrong;
   for (const PhiTerm& term : coefficient) {
-    if (term.k < 0 || term.k > kMaxK)
-      wrong << "row " << row << ": phi_" << term.k << ", expected k in 0.." << kMaxK << "; ";
+    if (term.k < 0 || term.k > kMaxPhi)
+      wrong << "row " << row << ": phi_" << term.k << ", expected k in 0.." << kMaxPhi << "; ";
     if (tableau.exponential && !known(term.node, tableau))
       wrong << "row " << row << ": phi_" << term.k << " at node " << term.node << ", which is neither one of c nor 1; ";
     if (!tableau.exponential && term.node != 0.0)

@@ -74,6 +74,16 @@ TEST(StiffPart, subtractingIsFMinusSTimesXForEveryKind) {
   }
 }
 
+TEST(StiffPart, subtractingInPlaceGivesTheSame) {
+  const StiffPart part = everything();
+  const Index n = stiffSize(part);
+  const Vector x = Vector::LinSpaced(n, -1.0, 2.0), f = Vector::LinSpaced(n, 5.0, 3.0);
+  Vector apart(n), in_place = f;
+  subtractStiff(part, view(x), view(f), view(apart));
+  subtractStiff(part, view(x), In(in_place.data(), n), view(in_place));
+  EXPECT_EQ(in_place, apart);
+}
+
 TEST(StiffPart, zeroLeavesFUntouchedBitForBit) {
   const Vector x = Vector::Constant(3, 1e300), f = Vector::LinSpaced(3, 0.1, 0.3);
   Vector remainder(3);

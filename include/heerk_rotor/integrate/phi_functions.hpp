@@ -7,7 +7,7 @@
 namespace heerk_rotor {
 
 /// phi_0(z) = e^z, phi_k(z) = sum_i z^i / (i + k)!, so that z phi_{k+1}(z) = phi_k(z) - 1/k!.
-/// (Hochbruck & Ostermann, Acta Numerica 19 (2010), eq. (2.10).) All of this runs at construction, never in the step, and
+/// (Hochbruck & Ostermann, Acta Numerica 19 (2010), section 2.1.) All of this runs at construction, never in the step, and
 /// computes in 80-bit long double inside: what is lost there is lost in every step that uses the tables.
 
 /// Largest k that the functions below provide.
@@ -36,13 +36,13 @@ std::vector<Matrix> phiFunctions(const Matrix& A, int kmax);
 /// with the 2-norm and the diagonal included, a small coupling is not blown up). All ones when that would not reduce ||A||_1.
 Vector balancingScales(const Matrix& A);
 
-/// phi_0 .. phi_4 of h N, N = [[0, 1], [-omega^2, -damping]]: one oscillator q'' = -omega^2 q - damping q', in the coordinates (q, q').
+/// phi_0 .. phi_4 of h N, N = [[0, 1], [-omega^2, -damping]]: one oscillator q'' = -omega^2 q - damping q' in coordinates (q, q').
 /// In energy coordinates (omega q, q') with a = h omega, s = h damping / 2, rho = (s - a)(s + a): h N is [[0, a], [-a, -2 s]]
-/// = -s I + M, M^2 = rho I, so phi_k = F0 I + F1 M with scalars F0, F1. Three branches: Taylor series while a, s <= 1.5; cos, sin (or cosh, sinh) with the exact
-/// recurrence while rho <= 1; separated real roots beyond, where nothing overflows however large s is. Every damping from none to
-/// huge is covered, critical included, and so are omega = 0 and damping = 0.
-/// Measured, energy norm, relative, against quadruple precision, a in 1e-12..6e3, zeta in 0..1e4,
-/// near-critical included: worst 3e-15, where a is close to a multiple of 2 pi and phi_1 itself nearly vanishes.
+/// = -s I + M, M^2 = rho I, so phi_k = F0 I + F1 M with scalars F0, F1. Three branches: Taylor series while a, s <= 1.5; cos, sin
+/// (or cosh, sinh) with the exact recurrence while rho <= 1; separated real roots beyond, where nothing overflows however large s
+/// is. Every damping from none to huge is covered, critical included, and so are omega = 0 and damping = 0.
+/// Measured, energy norm, relative, against quadruple precision, a in 1e-12..6e3, zeta in 0..1e4, near-critical included:
+/// worst 3e-15, where a is close to a multiple of 2 pi and phi_1 itself nearly vanishes.
 class ModalPhi {
  public:
   /// omega >= 0 [rad/s], damping >= 0 [1/s], h > 0 [s].
