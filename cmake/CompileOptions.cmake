@@ -18,8 +18,8 @@ option(HEERK_NATIVE "Optimise for this machine's processor (-march=native -fno-m
 add_compile_options(-Wall -Wextra)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   if(CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-    # GCC bug 105593: AVX intrinsics of its own header, inlined into Eigen's kernels, warn falsely.
-    add_compile_options(-Wno-uninitialized -Wno-maybe-uninitialized)
+    # GCC bug 105593 and its kin: AVX intrinsics of its own header, inlined into Eigen's kernels, warn falsely.
+    add_compile_options(-Wno-uninitialized -Wno-maybe-uninitialized -Wno-array-bounds)
   endif()
   add_compile_options(-fno-semantic-interposition)  # position-independent functions may still be inlined
 endif()

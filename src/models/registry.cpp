@@ -15,11 +15,13 @@ namespace {
 using Made = std::unique_ptr<SubsystemModel>;
 
 /// A spring-mounted hub needs inertia of its own: without hinge offset or blade inertia, common lag motion balances the
-/// hub completely and the coupled system is not index 1.
+/// hub completely (kappa is infinite) and the coupled system is not index 1. Long before that its equations lose all
+/// digits, because the hub acceleration is a difference that is kappa times smaller than its parts.
 bool checkMastInertia(Section& section, const LagRotorParameters& rotor) {
-  if (rotor.hinge_offset > 0.0 && rotor.blade_inertia > 0.0) return true;
-  section.problem("type", "rigid_mast, because with hinge_offset = 0 or blade_inertia = 0 of the rotor the hub has no inertia against "
-                          "common lag motion and an elastic mast makes the system not index 1");
+  constexpr double kLargestKappa = 1e8;  // leaves half of the digits
+  if (LagRotorConstants(rotor).kappa <= kLargestKappa) return true;
+  section.problem("type", "rigid_mast, because with so small a hinge_offset or blade_inertia of the rotor the hub has no inertia against "
+                          "common lag motion, and an elastic mast makes the system not index 1");
   return false;
 }
 
@@ -39,6 +41,9 @@ Made makeElasticMast(Section& section, const BuildContext& context) {
 }
 
 Made makeRigidMast(Section& section, const BuildContext& context) {
+  // Keys of elastic_mast, without effect here: one line, `type`, swaps the masts.
+  section.number("stiffness", 0.0, "N m/rad", positive());
+  section.number("damping", 0.0, "N m s/rad", nonNegative());
   const LagRotorParameters rotor = rotorOfMast(section, context);
   section.finish();
   return std::make_unique<RigidMast>(context.simulation.rotor_speed, mastLoad(rotor, formulationOf(context), context.simulation.rotor_speed));
@@ -94,6 +99,11 @@ Made makeMonolithicLagRotor(Section& section, const BuildContext& context) {
   p.linear_part = part == "zero" ? MonolithicLagRotor::LinearPart::kZero : part == "paper" ? MonolithicLagRotor::LinearPart::kPaper : MonolithicLagRotor::LinearPart::kExact;
   const auto lag = section.numbers("reference_lag", kLagBlades, 0.0, "rad");
   std::copy(lag.begin(), lag.end(), p.reference_lag.begin());
+  // A.2 knows neither dampers nor a mass that differs between the axes; silence would look as if they acted.
+  for (const char* key : {"lag_damper", "fuselage_damping_x", "fuselage_damping_y", "fuselage_mass_x", "fuselage_mass_y"})
+    if (section.has(key)) section.problem(key, "not given: the monolithic form has no dampers and one fuselage mass (use lag_rotor with elastic_mast)");
+  if (section.has("second_order_hub_terms") && section.flag("second_order_hub_terms", false))
+    section.problem("second_order_hub_terms", "false: the monolithic form is the paper's, without them");
   p.rotor = readLagRotorParameters(section);
   return std::make_unique<MonolithicLagRotor>(p);
 }

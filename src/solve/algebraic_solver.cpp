@@ -181,7 +181,8 @@ struct AlgebraicSolver::Implementation {
       if (!std::isfinite(report.residual) && report.iterations > 0) break;
       if (!loop.factorized || (!contracts && report.iterations > 0 && !fresh)) {
         if (!refresh(loop, t, x, w)) {
-          report.status = SolveStatus::kSingular;
+          const bool finite = std::all_of(loop.matrix.begin(), loop.matrix.end(), [](double v) { return std::isfinite(v); });
+          report.status = finite ? SolveStatus::kSingular : SolveStatus::kNonFinite;
           return report;
         }
         fresh = true;

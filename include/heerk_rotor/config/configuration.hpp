@@ -14,7 +14,8 @@ namespace heerk_rotor {
 class Configuration {
  public:
   /// Reads the file and applies "key=value" overrides in order. Throws ConfigurationError (missing file, YAML syntax,
-  /// unknown or malformed override key with the nearest known one, both simulation.step and azimuth_step_deg in the file).
+  /// a key given twice, unknown section, unknown or malformed override key with the nearest known one, both
+  /// simulation.step and azimuth_step_deg in the file).
   /// An override may address any key the file has, any element of a list by index, and any key that the schema of that
   /// place allows (checked later, when the section is read).
   static Configuration load(const std::string& file, const std::vector<std::string>& overrides = {});
