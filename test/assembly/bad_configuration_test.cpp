@@ -140,7 +140,7 @@ const Case kSubsystemCases[] = {
     {"InitialIsANumber", "{lag_1: 0.01}", "0.01", "initial", "subsystems.rotor.initial", "0.01", "a mapping"},
     {"SubsystemIsAWord", "  swashplate:\n    type: swashplate\n", "  swashplate: swashplate\n", "  swashplate: ", "subsystems.swashplate", "swashplate", "a mapping with the key type"},
     {"SubsystemName", "  swashplate:\n", "  2nd-drive: {type: drive}\n  swashplate:\n", "2nd-drive", "subsystems.2nd-drive", "{type: drive}", "as name of a subsystem a letter"},
-    {"HubWithoutInertia", "blade_mass: 31.9", "hinge_offset: 0", "type: elastic_mast", "subsystems.mast.type", "elastic_mast", "rigid_mast, because with hinge_offset = 0"},
+    {"HubWithoutInertia", "blade_mass: 31.9", "hinge_offset: 0", "type: elastic_mast", "subsystems.mast.type", "elastic_mast", "rigid_mast, because with so small a hinge_offset"},
 };
 
 const Case kConnectionCases[] = {
