@@ -1,11 +1,12 @@
-# Each bench/<name>.cpp is a Google Benchmark program bench_<name>.
+# Each bench/<name>_bench.cpp is a Google Benchmark program bench_<name>.
 find_package(benchmark QUIET)
-file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/bench/*.cpp)
+file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/bench/*_bench.cpp)
 if(NOT benchmark_FOUND)
   message(STATUS "heerk_rotor: Google Benchmark was not found, benchmarks are not built")
 elseif(TARGET heerk_rotor_core)
   foreach(source IN LISTS sources)
     get_filename_component(name ${source} NAME_WE)
+    string(REGEX REPLACE "_bench$" "" name ${name})
     add_executable(bench_${name} ${source})
     target_link_libraries(bench_${name} PRIVATE heerk_rotor_core benchmark::benchmark benchmark::benchmark_main)
     target_compile_definitions(bench_${name} PRIVATE HEERK_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}")

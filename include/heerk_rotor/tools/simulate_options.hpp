@@ -1,0 +1,31 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace heerk_rotor {
+
+/// The command line of `simulate`, checked as far as it can be without the configuration.
+struct SimulateOptions {
+  std::string configuration;            // CONFIG; may be empty with load_snapshot
+  std::vector<std::string> overrides;   // --set KEY=VALUE, in order
+  std::optional<double> duration;       // [s], from the instant the run starts at
+  std::optional<double> revolutions;    // of the nominal rotor speed
+  std::vector<std::string> outputs;     // *.csv, *.bag, *.lcm
+  std::vector<std::string> signals;     // names as given; empty: the published ones
+  std::uint64_t every = 1;              // record every N-th step
+  std::string commands;                 // CSV file of commands, or ""
+  std::string save_snapshot, load_snapshot;
+  bool json = false, quiet = false, list_signals = false;
+  std::string help;                     // not empty: print it and do nothing else
+};
+
+/// Throws ConfigurationError with everything that is wrong with the command line.
+SimulateOptions parseSimulateOptions(int argc, const char* const* argv);
+
+/// The kind of file an output is, from its name.
+enum class OutputKind { kCsv, kBag, kLcm };
+std::optional<OutputKind> outputKind(const std::string& file);
+
+}  // namespace heerk_rotor

@@ -1,0 +1,1 @@
+"""What analyze_bag.py is made of: reading a recording, harmonics, damping, plots."""

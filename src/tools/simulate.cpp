@@ -1,0 +1,62 @@
+// The program `simulate`: one configuration, advanced as fast as possible and recorded to files. See --help.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <optional>
+#include <string>
+
+#include "heerk_rotor/tools/conclude_run.hpp"
+#include "heerk_rotor/tools/run_length.hpp"
+#include "heerk_rotor/tools/signal_selection.hpp"
+#include "heerk_rotor/tools/stop_request.hpp"
+
+namespace {
+
+using namespace heerk_rotor;
+
+int print(const std::string& text) { return std::fputs(text.c_str(), stdout) >= 0 && std::fflush(stdout) == 0 ? 0 : 1; }
+
+void warn(const SimulateOptions& options, const std::string& text) {
+  if (!text.empty() && !options.quiet) std::fprintf(stderr, "simulate: warning: %s\n", text.c_str());
+}
+
+std::string unusedSignals(const SimulateOptions& options) {
+  const bool used = std::any_of(options.outputs.begin(), options.outputs.end(), [](const std::string& file) { return outputKind(file) == OutputKind::kCsv; });
+  return used || options.signals.empty() ? "" : "--signals chooses the columns of .csv outputs; there is none";
+}
+
+int run(const SimulateOptions& options) {
+  // Everything that can be wrong shows here, before any file is written.
+  RunSetup setup = setUpRun(options);
+  Simulation& simulation = *setup.simulation;
+  if (options.list_signals) return print(signalTable(simulation.system()));
+  const std::vector<Signal> signals = selectSignals(simulation.system(), options.signals);
+  const RunLength length = runLength(options, setup.settings, simulation.stepSize());
+  std::optional<CommandSchedule> commands;
+  if (!options.commands.empty()) commands = openCommands(options.commands, simulation);
+  Recorders recorders = openRecorders(options, setup, signals);
+  warn(options, length.warning);
+  warn(options, unusedSignals(options));
+
+  // The run.
+  const StopRequest stop;
+  RecentInstants recent(simulation, setup.settings.revolution());
+  ProgressBar progress(length.steps, simulation.stepSize(), !options.quiet);
+  const StepCompanions companions = {&setup.command, commands ? &*commands : nullptr, &recorders, &recent, &progress};
+  const RunSummary summary = runSteps(simulation, length.steps, companions);
+
+  // Files, messages, exit status.
+  return concludeRun(options, setup, signals, companions, summary);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const SimulateOptions options = parseSimulateOptions(argc, argv);
+    return options.help.empty() ? run(options) : print(options.help);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "simulate: %s\n", error.what());
+    return 2;
+  }
+}
