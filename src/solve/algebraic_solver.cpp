@@ -17,11 +17,12 @@ constexpr double kRoundOff = 64 * 2.2e-16; // a residual below this share of the
 
 /// A plan with the numbers that solving it needs.
 struct Loop {
-  explicit Loop(const LoopPlan& p) : plan(p), lu(p.gradient), matrix(p.gradient.rows.size(), 0.0),
+  explicit Loop(const LoopPlan& p) : plan(p), lu(p.gradient), matrix(p.gradient.rows.size(), 0.0), nominal(p.unknowns.size(), 1.0),
         step(p.unknowns.size(), 0.0), reference(p.unknowns.size(), 0.0), kept(p.unknowns.size(), 0.0) {}
   LoopPlan plan;
   SparseLu lu;
-  std::vector<double> matrix;            // I - dg/dy, in the order of plan.gradient.rows
+  std::vector<double> matrix;            // I - dg/dy in units of the nominal magnitudes, in the order of plan.gradient.rows
+  std::vector<double> nominal;           // magnitude of each unknown; makes pivots of different quantities comparable
   bool factorized = false;
   std::vector<double> step, reference, kept;
   std::vector<double> jacobian;          // scratch for a model's own Jacobian
@@ -98,12 +99,6 @@ struct AlgebraicSolver::Implementation {
     return norm;
   }
 
-  double nominalOf(Index entry) const noexcept {
-    for (const CoupledSystem::Output& output : system.outputs())
-      if (entry < output.begin + output.size) return output.nominal;
-    return 1.0;
-  }
-
   /// matrix = I - dg/dy at the present y: forward differences colour by colour, then the rows models know themselves.
   bool refresh(Loop& loop, double t, const Vector& x, const Vector& w) noexcept {
     ++counters.jacobians;
@@ -119,7 +114,7 @@ struct AlgebraicSolver::Implementation {
       for (std::size_t j = 0; j < n; ++j) {
         if (p.colour[j] != colour) continue;
         const Index e = p.unknowns[j];
-        y[e] = loop.kept[j] + kDifference * std::max(std::abs(loop.kept[j]), nominalOf(e));
+        y[e] = loop.kept[j] + kDifference * std::max(std::abs(loop.kept[j]), loop.nominal[j]);
       }
       residual(loop, t, x, w, unused);
       for (std::size_t j = 0; j < n; ++j) {
@@ -128,7 +123,7 @@ struct AlgebraicSolver::Implementation {
         for (Index q = p.gradient.start[j]; q < p.gradient.start[j + 1]; ++q) {
           const Index i = p.gradient.rows[q];
           const double slope = (g[p.unknowns[i]] - loop.reference[i]) / width;
-          loop.matrix[q] = (i == static_cast<Index>(j) ? 1.0 : 0.0) - slope;
+          loop.matrix[q] = (i == static_cast<Index>(j) ? 1.0 : 0.0) - slope * loop.nominal[j] / loop.nominal[i];
         }
         y[p.unknowns[j]] = loop.kept[j];
       }
@@ -161,7 +156,7 @@ struct AlgebraicSolver::Implementation {
               if (offset >= 0 && offset < input.size) slope += jacobian(row, input.begin - owner.u_begin + offset);
             }
           }
-          loop.matrix[q] = (i == static_cast<Index>(j) ? 1.0 : 0.0) - slope;
+          loop.matrix[q] = (i == static_cast<Index>(j) ? 1.0 : 0.0) - slope * loop.nominal[j] / loop.nominal[i];
         }
       }
     }
@@ -191,8 +186,10 @@ struct AlgebraicSolver::Implementation {
         fresh = false;
       }
       previous = report.residual;
+      const std::size_t n = loop.plan.unknowns.size();
+      for (std::size_t k = 0; k < n; ++k) loop.step[k] /= loop.nominal[k];
       loop.lu.solve(loop.step.data());
-      for (std::size_t k = 0; k < loop.plan.unknowns.size(); ++k) y[loop.plan.unknowns[k]] += loop.step[k];
+      for (std::size_t k = 0; k < n; ++k) y[loop.plan.unknowns[k]] += loop.step[k] * loop.nominal[k];
       ++counters.newton_iterations;
     }
     report.status = std::isfinite(report.residual) ? SolveStatus::kStalled : SolveStatus::kNonFinite;
@@ -299,15 +296,22 @@ AlgebraicSolver::AlgebraicSolver(CoupledSystem& system, const SolverOptions& opt
       const CoupledSystem::Output& output = system.outputs()[port];
       largest = std::max(largest, static_cast<std::size_t>(output.size * system.subsystems()[output.subsystem].u_size));
     }
-    s.pruned.back().jacobian.assign(largest, 0.0);
-    s.full.back().jacobian.assign(largest, 0.0);
+    for (Loop* loop : {&s.pruned.back(), &s.full.back()}) {
+      loop->jacobian.assign(largest, 0.0);
+      for (std::size_t k = 0; k < loop->nominal.size(); ++k)
+        for (const Index port : loop->plan.outputs)
+          if (const CoupledSystem::Output& output = system.outputs()[port]; loop->plan.unknowns[k] >= output.begin && loop->plan.unknowns[k] < output.begin + output.size)
+            loop->nominal[k] = output.nominal;
+    }
     s.markUnknowns(l);
   }
   for (const CoupledSystem::Input& input : system.inputs())  // constants and commands, before anything reads them
     s.gather(&input - system.inputs().data(), w);
 
-  // The first solution also proves that the system is index 1 here.
-  const SolveReport report = s.solve(t, x, w);
+  // The system must be index 1 here, also where the start values happen to solve a loop that has no unique solution.
+  SolveReport report = s.solve(t, x, w);
+  for (std::size_t l = 0; l < s.pruned.size() && report.status == SolveStatus::kConverged; ++l)
+    if (!s.current(l).plan.unknowns.empty() && !s.refresh(s.current(l), t, x, w)) report.status = SolveStatus::kSingular;
   for (std::size_t l = 0; l < s.pruned.size(); ++l) {
     const Loop& loop = s.current(l);
     s.infos.push_back({loop.plan.outputs, static_cast<Index>(s.plan.full[l].unknowns.size()), loop.plan.unknowns,
