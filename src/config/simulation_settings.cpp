@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kAzimuthStepDeg = 1.0;      // [deg] default: every result of the paper study is at least converged there
-constexpr double kMaxNewtonTolerance = 0.1;  // a scaled residual above 10 % is no solution
+constexpr double kMaxNewtonTolerance = 0.1;  // a relative error above 10 % is no solution
 
 double readRotorSpeed(Section& section) {
   const double omega = section.has("rotor_speed_rpm") ? section.requiredNumber("rotor_speed_rpm", "rpm", positive()) * kPi / 30.0
@@ -38,7 +38,7 @@ void readNewtonTolerance(const Configuration& configuration, Section& section, S
   if (readNumber(findValue(configuration.root(), "simulation.newton_tolerance"), value) && value > 0.0 && value <= kMaxNewtonTolerance) {
     settings.newton_tolerance = value;
   } else {
-    section.problem("newton_tolerance", "a number in (0, 0.1] [scaled residual], or the word paper");
+    section.problem("newton_tolerance", "a number in (0, 0.1] [relative error of a loop], or the word paper");
   }
 }
 

@@ -147,7 +147,7 @@ StepFailure Simulation::failure() const {
   } else if (failure_report_.status == SolveStatus::kSingular) {
     failure.cause = "I - dg/dy became singular: the coupled system is not index 1 in this state";
   } else {
-    failure.cause = "Newton stopped at a residual of " + std::to_string(failure_report_.residual) + ": the solution changes too much within one step, or has no real value";
+    failure.cause = "Newton stopped at a correction of " + std::to_string(failure_report_.error) + ": the solution changes too much within one step, or has no real value";
   }
   return failure;
 }

@@ -66,11 +66,10 @@ std::vector<OutputPort> LagRotor::outputs() const {
 double LagRotor::lagAngle(const In& x, const In& u, int i) const noexcept { return absolute_ ? x[kLag + i] - c_.g * u[kTwist] : x[kLag + i]; }
 double LagRotor::lagRate(const In& x, const In& u, int i) const noexcept { return absolute_ ? x[kLagRate + i] - c_.g * u[kTwistRate] : x[kLagRate + i]; }
 
-/// Blade row without the fuselage terms: phi_i'' (printed) or chi_i'' (absolute lag).
-double LagRotor::uncoupledLagAcceleration(const In& x, const In& u, int i) const noexcept {
+/// What accelerates a blade about its hinge apart from the hub's motion: springs, damper, airload.
+double LagRotor::hingeAcceleration(const In& x, const In& u, int i) const noexcept {
   const double k = c_.r_a2 * u[kSpeed] * u[kSpeed] + p_.lag_frequency[i] * p_.lag_frequency[i];
-  const double base = u[absolute_ ? kDriveAcceleration : kHubAcceleration];
-  return -k * lagAngle(x, u, i) - c_.g * base + (u[kMoment + i] - p_.lag_damper[i] * lagRate(x, u, i)) / c_.lag_inertia;
+  return -k * lagAngle(x, u, i) + (u[kMoment + i] - p_.lag_damper[i] * lagRate(x, u, i)) / c_.lag_inertia;
 }
 
 LagRotor::Accelerations LagRotor::accelerations(const In& x, const In& u) const noexcept {
@@ -78,13 +77,14 @@ LagRotor::Accelerations LagRotor::accelerations(const In& x, const In& u) const 
   a.sine = std::sin(u[kAzimuth]);
   a.cosine = std::cos(u[kAzimuth]);
   const double s = a.sine, c = a.cosine, omega = u[kSpeed], alpha = u[kHubAcceleration];
+  const double base = absolute_ ? u[kDriveAcceleration] : alpha;  // angular acceleration of what the states are relative to
 
   // Blades 1, 3 and 2, 4 are opposite, so sums over s_i and c_i are differences of two; common parts (alpha, twist) cancel.
   double lag[kLagBlades], rate[kLagBlades];
   for (int i = 0; i < kLagBlades; ++i) {
     lag[i] = lagAngle(x, u, i);
     rate[i] = lagRate(x, u, i);
-    a.lag[i] = uncoupledLagAcceleration(x, u, i);
+    a.lag[i] = hingeAcceleration(x, u, i) - c_.g * base;
   }
   const double lag13 = lag[0] - lag[2], lag24 = lag[1] - lag[3], rate13 = rate[0] - rate[2], rate24 = rate[1] - rate[3];
   const double acc13 = a.lag[0] - a.lag[2], acc24 = a.lag[1] - a.lag[3];
@@ -112,14 +112,15 @@ LagRotor::Accelerations LagRotor::accelerations(const In& x, const In& u) const 
 }
 
 double LagRotor::bladeReaction(const In& x, const In& u) const noexcept {
-  // Fuselage terms cancel in sum phi_i'', so the uncoupled accelerations are enough.
+  // Fuselage terms cancel in sum phi_i'', so the accelerations about the hinge are enough; in absolute-lag form the drive's
+  // acceleration cancels as well, chi_i'' + g psi_drive'' being free of it.
   double sum = 0.0, airload = 0.0, lag_times_rate = 0.0;
   for (int i = 0; i < kLagBlades; ++i) {
-    sum += uncoupledLagAcceleration(x, u, i);
+    sum += hingeAcceleration(x, u, i);
     airload += u[kMoment + i] + p_.hinge_offset * u[kForce + i];
     lag_times_rate += lagAngle(x, u, i) * lagRate(x, u, i);
   }
-  if (absolute_) sum += kLagBlades * c_.g * u[kDriveAcceleration];
+  if (!absolute_) sum -= kLagBlades * c_.g * u[kHubAcceleration];
   double reaction = airload - c_.coupling_inertia * sum;
   if (p_.second_order_hub_terms) {
     const Accelerations a = accelerations(x, u);

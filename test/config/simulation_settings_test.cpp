@@ -90,11 +90,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadSettings{"{rotor_speed: 1, formulation: printd}",
                     "t.yaml:1: simulation.formulation = printd: expected one of absolute_lag, printed (did you mean 'printed'?)"},
         BadSettings{"{rotor_speed: 1, newton_tolerance: 0.2}",
-                    "t.yaml:1: simulation.newton_tolerance = 0.2: expected a number in (0, 0.1] [scaled residual], or the word paper"},
+                    "t.yaml:1: simulation.newton_tolerance = 0.2: expected a number in (0, 0.1] [relative error of a loop], or the word paper"},
         BadSettings{"{rotor_speed: 1, newton_tolerance: papr}",
-                    "t.yaml:1: simulation.newton_tolerance = papr: expected a number in (0, 0.1] [scaled residual], or the word paper"},
+                    "t.yaml:1: simulation.newton_tolerance = papr: expected a number in (0, 0.1] [relative error of a loop], or the word paper"},
         BadSettings{"{rotor_speed: 1, newton_tolerance: [1e-3]}",
-                    "t.yaml:1: simulation.newton_tolerance = [1e-3]: expected a number in (0, 0.1] [scaled residual], or the word paper"},
+                    "t.yaml:1: simulation.newton_tolerance = [1e-3]: expected a number in (0, 0.1] [relative error of a loop], or the word paper"},
         BadSettings{"{rotor_speed: 1, duration: .inf}", "t.yaml:1: simulation.duration = .inf: expected a number > 0 [s]"},
         BadSettings{"{rotor_speed: 1, integrater: HERK4}", "t.yaml:1: simulation.integrater = HERK4: expected a known key (did you mean 'integrator'?)"}));
 

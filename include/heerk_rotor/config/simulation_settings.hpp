@@ -12,7 +12,7 @@ struct SimulationSettings {
   double step = 0.0;                         // h [s], from `step` or from `azimuth_step_deg` and the rotor speed
   std::string formulation = "absolute_lag";  // absolute_lag | printed (lag rotor, see the model card)
   bool paper_tolerance = false;              // newton_tolerance: paper
-  double newton_tolerance = 1e-10;           // scaled residual
+  double newton_tolerance = 1e-10;           // on the scaled Newton correction
   double duration = 10.0;                    // default length of `simulate` [s]
 
   double revolution() const;                 // T_rev [s]

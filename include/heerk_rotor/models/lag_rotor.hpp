@@ -44,7 +44,7 @@ class LagRotor : public SubsystemModel {
   };
   double lagAngle(const In& x, const In& u, int blade) const noexcept;
   double lagRate(const In& x, const In& u, int blade) const noexcept;
-  double uncoupledLagAcceleration(const In& x, const In& u, int blade) const noexcept;
+  double hingeAcceleration(const In& x, const In& u, int blade) const noexcept;
   Accelerations accelerations(const In& x, const In& u) const noexcept;
   double bladeReaction(const In& x, const In& u) const noexcept;
   void hubForce(const In& x, const In& u, Out y) const noexcept;

@@ -14,7 +14,7 @@ namespace heerk_rotor {
 ///
 /// States: collective, lateral_cyclic (1c), longitudinal_cyclic (1s) [rad], and their actuator demand v [rad/s].
 /// Inputs: command (as the states), hub_motion. Outputs: pitch of each blade (nose up positive, collective quoted at
-/// 0.75 R) and its two derivatives.
+/// 0.75 R), its rate, and the plate's position.
 class Swashplate : public SubsystemModel {
  public:
   struct Parameters {

@@ -24,12 +24,12 @@ enum class SolveStatus { kConverged, kStalled, kSingular, kNonFinite };
 struct SolveReport {
   SolveStatus status = SolveStatus::kConverged;
   int iterations = 0;
-  double residual = 0.0;  // maximum over entries of |g - y| / nominal, round-off of |y| excepted
+  double error = 0.0;     // last Newton correction: maximum over unknowns of |correction| / max(nominal, |y|)
   Index entry = -1;       // global y entry that limits it when not converged
 };
 
 struct SolverOptions {
-  double tolerance = 1e-10;   // on the scaled residual
+  double tolerance = 1e-10;   // on the scaled Newton correction, which estimates the error of y
   int max_iterations = 30;
   bool prune = true;          // false: every entry of a port-level loop is an unknown (reference for tests)
 };

@@ -1,0 +1,31 @@
+#pragma once
+#include <cstdint>
+
+#include "heerk_rotor/assembly/rotor_view.hpp"
+#include "heerk_rotor/realtime/snapshot_ring.hpp"
+
+namespace heerk_rotor {
+
+/// Where the command in effect came from; kTimeout: the last one became too old and the default took its place.
+enum class CommandSource : std::uint8_t { kNone, kRos, kRosArray, kLcm, kTimeout };
+
+constexpr const char* name(CommandSource source) {
+  switch (source) {
+    case CommandSource::kRos: return "ros";
+    case CommandSource::kRosArray: return "ros_array";
+    case CommandSource::kLcm: return "lcm";
+    case CommandSource::kTimeout: return "timeout";
+    case CommandSource::kNone: break;
+  }
+  return "none";
+}
+
+/// What travels from the step thread to publishers and recorders.
+struct RotorInstant {
+  RotorReading reading;
+  CommandSource source = CommandSource::kNone;
+};
+
+using RotorRing = SnapshotRing<RotorInstant>;
+
+}  // namespace heerk_rotor

@@ -1,0 +1,76 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <ros/ros.h>
+#include <std_msgs/Float64MultiArray.h>
+
+#include "heerk_rotor/SwashplateCommand.h"
+#include "heerk_rotor/assembly/rotor_view.hpp"
+#include "heerk_rotor/config/configuration.hpp"
+#include "heerk_rotor/integrate/simulation.hpp"
+#include "heerk_rotor/realtime/real_time_loop.hpp"
+#include "heerk_rotor/ros/command_input.hpp"
+#include "heerk_rotor/ros/node_parameters.hpp"
+#include "heerk_rotor/ros/rotor_diagnostics.hpp"
+#include "heerk_rotor/ros/rotor_geometry.hpp"
+#include "heerk_rotor/ros/rotor_services.hpp"
+#include "heerk_rotor/ros/rotor_task.hpp"
+#include "heerk_rotor/ros/state_publisher.hpp"
+#include "heerk_rotor/ros/view_publisher.hpp"
+
+namespace heerk_rotor {
+
+class LcmLink;
+
+/// The node `rotor`: puts simulation, step thread, publishers, services and LCM together and watches over them.
+/// Threads: the step thread; state publisher; view publisher; LCM sender, receiver and log; roscpp's callbacks.
+class RotorNode {
+ public:
+  enum ExitStatus { kDone = 0, kBadParameters = 2, kSimulationFailed = 3, kRecordingIncomplete = 4 };
+
+  /// Throws ParameterError, ConfigurationError and other std::exceptions whose text says what is wrong.
+  explicit RotorNode(const NodeParameters& parameters);
+  ~RotorNode();
+
+  /// Runs until ROS shuts down or ~duration is over; returns the exit status.
+  int run();
+
+ private:
+  void subscribeToCommands();
+  void start();
+  void supervise();
+  void reportFailure();
+  void stop();
+  int exitStatus();
+  RotorTask::Options taskOptions() const;
+  std::size_t ringCapacity(double seconds, int every) const;
+
+  const NodeParameters parameters_;
+  const Configuration configuration_;
+  std::unique_ptr<Simulation> simulation_;
+  RotorView view_;
+  const RotorGeometry geometry_;
+  const StampBase stamps_;
+  ros::NodeHandle node_, private_node_{"~"};
+
+  CommandInput input_;
+  RotorTask task_;
+  MonotonicClock clock_;
+  RealTimeLoop loop_;
+  RotorRing state_ring_;
+  StatePublisher state_publisher_;
+  ViewPublisher view_publisher_;
+  RotorServices services_;
+  RotorDiagnostics diagnostics_;
+  std::unique_ptr<LcmLink> lcm_;  // nullptr: built without LCM
+  std::vector<ros::Subscriber> subscribers_;
+  ros::AsyncSpinner spinner_{2};  // ~step waits for its steps; the other services answer meanwhile
+
+  bool failed_ = false;
+  std::int64_t reported_epoch_ = -1;  // of the last failure that was reported
+  bool recording_problem_reported_ = false;
+};
+
+}  // namespace heerk_rotor

@@ -1,0 +1,87 @@
+#pragma once
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "heerk_rotor/assembly/rotor_view.hpp"
+#include "heerk_rotor/integrate/simulation.hpp"
+#include "heerk_rotor/realtime/latest_value.hpp"
+#include "heerk_rotor/realtime/real_time_loop.hpp"
+#include "heerk_rotor/realtime/rotor_instant.hpp"
+#include "heerk_rotor/ros/command_input.hpp"
+#include "heerk_rotor/ros/node_parameters.hpp"
+
+namespace heerk_rotor {
+
+/// What the step thread does: take the command, step, hand the instant to the rings. Everything here runs on that thread
+/// (other threads go through RealTimeLoop::call()) except where it says so.
+class RotorTask : public StepTask, public Observer {
+ public:
+  struct Options {
+    double command_timeout = 0.5;                      // [s]; 0 = never
+    TimeoutPolicy timeout_policy = TimeoutPolicy::kHold;
+    std::uint64_t lock_step = 0;                       // steps per command; 0 = free
+    std::uint64_t last_step = 0;                       // finish when this step number is reached; 0 = endless
+    std::size_t history = 0;                           // instants kept for the report of a failure
+  };
+
+  /// Registers itself as an observer; simulation, view and input must outlive it.
+  RotorTask(Simulation& simulation, RotorView& view, CommandInput& input, const Options& options);
+
+  /// Adds a reader that gets every n-th step. A lossless one makes the task wait for space until `stop` is true (runs as
+  /// fast as possible only). Before the run.
+  void addRing(RotorRing& ring, std::uint64_t every);
+  void addLosslessRing(RotorRing& ring, const std::atomic<bool>& stop);
+
+  Result step() noexcept override;
+  bool ready() noexcept override;
+  void observe(const Sample& sample) noexcept override;
+
+  /// Shows the present instant to the readers, once, without stepping: after a pause, a reset, a batch of steps.
+  void showPresent() noexcept;
+
+  /// The default command from now on, until another one arrives.
+  void forgetCommand();
+  /// The command of a loaded snapshot from now on, until another one arrives.
+  void resumeCommand(const Vector& command);
+
+  /// Instants before the present one, oldest first, up to one per kept step.
+  std::vector<RotorInstant> history() const;
+  /// Why the last step failed, in words.
+  std::string failureText() const;
+
+  /// Newest instant, for readers that want no other; one reading thread.
+  LatestValue<RotorInstant>& newest() { return newest_; }
+
+  /// Any thread: source of the command in effect.
+  CommandSource source() const { return source_in_effect_; }
+
+ private:
+  struct Reader {
+    RotorRing* ring;
+    std::uint64_t every;
+    const std::atomic<bool>* stop;  // lossless when set
+  };
+  void apply(const Command& command) noexcept;
+  void latchCommand() noexcept;
+  void useDefault(CommandSource source) noexcept;
+
+  Simulation& simulation_;
+  RotorView& view_;
+  CommandInput& input_;
+  const Options options_;
+  MonotonicClock clock_;
+  std::vector<Reader> readers_;
+  LatestValue<RotorInstant> newest_;
+  Vector w_;                         // command in effect
+  Command command_;                  // last one taken
+  RotorInstant instant_;             // last one shown
+  bool shown_ = false;               // instant_ holds something
+  bool output_not_finite_ = false;
+  std::uint64_t granted_ = 0;        // steps left of the present command in lock step
+  std::vector<RotorInstant> history_;
+  std::uint64_t history_count_ = 0;
+  std::atomic<CommandSource> source_in_effect_{CommandSource::kNone};
+};
+
+}  // namespace heerk_rotor

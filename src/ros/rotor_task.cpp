@@ -1,0 +1,125 @@
+#include "heerk_rotor/ros/rotor_task.hpp"
+
+#include <algorithm>
+
+namespace heerk_rotor {
+namespace {
+
+/// 0 * x is 0 for every finite x and not a number otherwise, so the sum tells without a branch per value.
+template <class Values>
+double nonFinite(const Values& values) noexcept {
+  double sum = 0.0;
+  for (const double value : values) sum += 0.0 * value;
+  return sum;
+}
+
+bool isFinite(const RotorReading& r) noexcept {
+  double sum = 0.0;
+  for (const RotorReading::PerBlade* values : {&r.lag, &r.lag_rate, &r.flap, &r.flap_rate, &r.pitch, &r.tip_twist}) sum += nonFinite(*values);
+  for (const auto* values : {&r.hub_force, &r.hub_moment, &r.position, &r.velocity, &r.angular_velocity}) sum += nonFinite(*values);
+  sum += nonFinite(r.orientation) + nonFinite(r.inflow);
+  sum += nonFinite(std::array<double, 6>{r.azimuth, r.rotor_speed, r.thrust_coefficient, r.torque_coefficient, r.power_coefficient, r.advance_ratio});
+  return sum == 0.0;
+}
+
+}  // namespace
+
+RotorTask::RotorTask(Simulation& simulation, RotorView& view, CommandInput& input, const Options& options)
+    : simulation_(simulation), view_(view), input_(input), options_(options), w_(simulation.system().defaultCommand()), history_(options.history) {
+  simulation_.addObserver(*this);
+}
+
+void RotorTask::addRing(RotorRing& ring, std::uint64_t every) { readers_.push_back({&ring, every, nullptr}); }
+
+void RotorTask::addLosslessRing(RotorRing& ring, const std::atomic<bool>& stop) { readers_.push_back({&ring, 1, &stop}); }
+
+void RotorTask::apply(const Command& command) noexcept {
+  if (view_.collectiveCommand() >= 0) w_[view_.collectiveCommand()] = command.values[0];
+  if (view_.lateralCyclicCommand() >= 0) w_[view_.lateralCyclicCommand()] = command.values[1];
+  if (view_.longitudinalCyclicCommand() >= 0) w_[view_.longitudinalCyclicCommand()] = command.values[2];
+  source_in_effect_ = command.source;
+}
+
+void RotorTask::useDefault(CommandSource source) noexcept {
+  w_ = simulation_.system().defaultCommand();
+  source_in_effect_ = source;
+}
+
+void RotorTask::latchCommand() noexcept {
+  if (input_.take(command_)) apply(command_);
+  if (options_.timeout_policy == TimeoutPolicy::kHold || options_.command_timeout == 0.0 || command_.source == CommandSource::kNone) return;
+  if (1e-9 * static_cast<double>(clock_.now() - command_.arrival) <= options_.command_timeout) return;
+  command_.source = CommandSource::kNone;  // dealt with
+  useDefault(CommandSource::kTimeout);
+}
+
+bool RotorTask::ready() noexcept {
+  if (options_.lock_step == 0 || granted_ > 0) return true;
+  if (!input_.take(command_)) return false;
+  apply(command_);
+  granted_ = options_.lock_step;
+  return true;
+}
+
+StepTask::Result RotorTask::step() noexcept {
+  if (options_.lock_step == 0) latchCommand();
+  if (simulation_.step(w_) != StepStatus::kOk || output_not_finite_) return Result::kFailed;
+  const bool finished = options_.last_step > 0 && simulation_.stepCount() >= options_.last_step;
+  const bool batch_done = granted_ > 0 && --granted_ == 0;
+  // In lock step the controller answers to the instant that its command has led to; a run's last instant belongs to its record.
+  if (finished || batch_done) showPresent();
+  if (output_not_finite_) return Result::kFailed;
+  return finished ? Result::kFinished : Result::kOk;
+}
+
+void RotorTask::showPresent() noexcept { simulation_.observe(w_); }
+
+void RotorTask::observe(const Sample& sample) noexcept {
+  if (shown_ && sample.step == instant_.reading.step && sample.epoch == instant_.reading.epoch) return;  // by showPresent()
+  view_.read(sample, instant_.reading);
+  instant_.source = source_in_effect_.load(std::memory_order_relaxed);
+  shown_ = true;
+  if (!isFinite(instant_.reading)) {
+    output_not_finite_ = true;
+    return;
+  }
+  for (const Reader& reader : readers_) {
+    if (sample.step % reader.every != 0) continue;
+    if (reader.stop != nullptr) reader.ring->pushWaiting(instant_, *reader.stop);
+    else reader.ring->push(instant_);
+  }
+  newest_.write(instant_);
+  if (!history_.empty()) history_[history_count_++ % history_.size()] = instant_;
+}
+
+void RotorTask::forgetCommand() {
+  Command stale;
+  while (input_.take(stale)) {
+  }
+  command_ = Command();
+  granted_ = 0;
+  output_not_finite_ = false;
+  useDefault(CommandSource::kNone);
+}
+
+void RotorTask::resumeCommand(const Vector& command) {
+  forgetCommand();
+  w_ = command;
+}
+
+std::vector<RotorInstant> RotorTask::history() const {
+  const std::uint64_t size = std::min<std::uint64_t>(history_count_, history_.size());
+  std::vector<RotorInstant> instants;
+  for (std::uint64_t i = history_count_ - size; i < history_count_; ++i) instants.push_back(history_[i % history_.size()]);
+  return instants;
+}
+
+std::string RotorTask::failureText() const {
+  const StepFailure failure = simulation_.failure();
+  const std::string where = "step " + std::to_string(simulation_.stepCount()) + ", simulation time " + std::to_string(simulation_.time()) + " s: ";
+  if (failure.status == StepStatus::kOk) return where + "an output of the rotor is not a finite number, although all states are";
+  const std::string what = failure.status == StepStatus::kNonFinite ? " became non-finite; " : " could not be solved for; ";
+  return where + (failure.where.empty() ? "the coupled system" : failure.where) + what + failure.cause;
+}
+
+}  // namespace heerk_rotor

@@ -1,0 +1,96 @@
+// The real-time promise: after construction no step touches the heap.
+#include <cstdlib>
+
+#include "models/allocation_counter.hpp"
+#include "models/rotor_runs.hpp"
+
+namespace heerk_rotor {
+namespace {
+
+using namespace test;
+
+/// Keeps the optimiser from removing an allocation that nobody uses.
+template <class T>
+T* used(T* block) {
+  asm volatile("" : : "r"(block) : "memory");
+  return block;
+}
+
+TEST(HeapCalls, seesEveryWayToTheHeap) {
+  if (!heapIsCounted()) GTEST_SKIP() << "the heap belongs to a sanitizer";
+  const auto counted = [](auto&& work) {
+    HeapCalls heap;
+    work();
+    return heap.count();
+  };
+  EXPECT_EQ(counted([] {}), 0u);
+  EXPECT_GE(counted([] { std::free(used(std::malloc(10))); }), 1u);
+  EXPECT_GE(counted([] { delete used(new Vector(100)); }), 4u);  // the object and its elements, there and back
+  EXPECT_GE(counted([] {
+    Vector v(10);
+    v.resize(1000);
+    used(v.data());
+  }), 2u);
+  EXPECT_GE(counted([] {
+    struct alignas(64) Wide { double x[16]; };
+    delete used(new Wide);
+  }), 2u);
+  EXPECT_GE(counted([] { std::string text(100, 'x'); used(&text); }), 2u);
+}
+
+/// Reads everything, as a publisher does.
+struct Watcher : Observer {
+  void observe(const Sample& sample) noexcept override {
+    ++instants;
+    sum += sample.y.sum() + sample.x.sum();
+  }
+  std::uint64_t instants = 0;
+  double sum = 0.0;
+};
+
+void expectNoHeapCalls(const Overrides& overrides, long steps) {
+  if (!heapIsCounted()) GTEST_SKIP() << "the heap belongs to a sanitizer";
+  auto simulation = buildSimulation(shipped("lag_rotor_controlled.yaml", overrides));
+  Watcher watcher;
+  simulation->addObserver(watcher);
+  Vector w = simulation->system().defaultCommand();
+  const auto& names = simulation->system().commandNames();
+  const auto command = [&](const std::string& name) { return std::find(names.begin(), names.end(), name) - names.begin(); };
+  const Index collective = command("swashplate.collective"), lateral = command("swashplate.lateral_cyclic");
+  const Index longitudinal = command("swashplate.longitudinal_cyclic"), speed = command("drive.speed");
+  ASSERT_LT(std::max({collective, lateral, longitudinal, speed}), w.size());
+  ASSERT_TRUE(advance(*simulation, 100, w));  // warm-up
+
+  // Commands change all the time, beyond their limits too; the speed goes down, up and back.
+  StepStatus status = StepStatus::kOk;
+  std::uint64_t heap_calls = 0;
+  {
+    HeapCalls heap;
+    for (long k = 0; k < steps && status == StepStatus::kOk; ++k) {
+      if (k % 500 == 0) {
+        const double phase = 1e-4 * static_cast<double>(k);
+        w[collective] = 0.15 + 0.05 * std::sin(phase);
+        w[lateral] = 0.04 * std::cos(3.0 * phase);
+        w[longitudinal] = k % 70000 == 0 ? 0.5 : 0.03 * std::sin(2.0 * phase);
+        w[speed] = k < steps / 4 ? 41.0 : k < steps / 2 ? 37.0 : k < 3 * steps / 4 ? 44.0 : 41.0;
+      }
+      status = simulation->step(w);
+    }
+    heap_calls = heap.count();
+  }
+  EXPECT_EQ(status, StepStatus::kOk) << simulation->failure().where << ": " << simulation->failure().cause;
+  EXPECT_EQ(heap_calls, 0u);
+  EXPECT_EQ(watcher.instants, static_cast<std::uint64_t>(steps) + 100u);
+  EXPECT_TRUE(std::isfinite(watcher.sum));
+}
+
+TEST(Allocation, aMillionStepsOfTheControlledRotorNeverTouchTheHeap) { expectNoHeapCalls({}, 1000000); }
+
+TEST(Allocation, noMethodAndNoFormulationTouchesTheHeap) {
+  for (const char* formulation : {"absolute_lag", "printed"})
+    for (const char* method : {"HERK4", "HEERK2", "HEERK3", "HEERK4", "ETDRK4"})
+      expectNoHeapCalls({std::string("simulation.formulation=") + formulation, std::string("simulation.integrator=") + method, "simulation.step=1.0e-4"}, 5000);
+}
+
+}  // namespace
+}  // namespace heerk_rotor

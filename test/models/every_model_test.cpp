@@ -1,0 +1,230 @@
+// What every registered model must keep, whatever it models. A new type is tested here by being registered; one that has
+// required parameters adds its minimal section to minimalParameters().
+#include <random>
+
+#include "heerk_rotor/models/registry.hpp"
+#include "models/allocation_counter.hpp"
+#include "models/rotor_runs.hpp"
+
+namespace heerk_rotor {
+namespace {
+
+using namespace test;
+
+std::string minimalParameters(const std::string& type) {
+  // type -> ", key: value ...": what is required, and what must not be zero lest a term go untested
+  static const std::map<std::string, std::string> parameters{{"elastic_mast", ", damping: 50.0"}, {"lag_rotor", ", fuselage_damping_x: 900.0, lag_damper: 70.0"}};
+  const auto found = parameters.find(type);
+  return found == parameters.end() ? "" : found->second;
+}
+
+struct Variant {
+  std::string type;
+  std::string formulation;
+  bool second_order;
+};
+
+std::ostream& operator<<(std::ostream& out, const Variant& v) { return out << v.type << ", " << v.formulation << (v.second_order ? ", hub terms" : ""); }
+
+/// One model alone, built through the registry beside the rotor that masts look for.
+struct Tested {
+  explicit Tested(const Variant& variant) {
+    const std::string terms = std::string(", second_order_hub_terms: ") + (variant.second_order ? "true" : "false");
+    const std::string own = variant.type == "lag_rotor" ? terms : "";
+    const Configuration configuration = Configuration::parse(
+        "simulation: {rotor_speed: 41.0, step: 1.0e-3, formulation: " + variant.formulation + "}\n"
+        "subsystems:\n  rotor: {type: lag_rotor, lag_damper: [70.0, 0.0, 90.0, 20.0]" + terms + "}\n  tested: {type: " + variant.type + own + minimalParameters(variant.type) + "}\n", "minimal");
+    Problems problems;
+    const SimulationSettings settings = readSimulationSettings(configuration, problems);
+    Section section(configuration, "subsystems.tested", problems);
+    section.word("type", "");
+    for (const ModelType& type : modelTypes())
+      if (type.name == variant.type) model = type.make(section, {configuration, settings, "tested", problems});
+    section.finish();
+    EXPECT_TRUE(problems.empty()) << problems.text();
+    if (!model) throw std::runtime_error("no model");
+    states = model->states();
+    inputs = model->inputs();
+    outputs = model->outputs();
+    for (const InputPort& port : inputs) {
+      input_begin.push_back(input_size);
+      input_size += port.size;
+    }
+  }
+
+  /// A plausible point: default inputs and initial states, moved at random; speeds and azimuths of a turning rotor.
+  void randomPoint(std::mt19937& random, Vector& x, Vector& u) const {
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    x = Vector::Zero(static_cast<Index>(states.size()));
+    u = Vector::Zero(input_size);
+    for (Index i = 0; i < x.size(); ++i) x[i] = states[static_cast<std::size_t>(i)].initial + 0.1 * unit(random);
+    for (std::size_t p = 0; p < inputs.size(); ++p)
+      for (Index i = 0; i < inputs[p].size; ++i) {
+        double& value = u[input_begin[p] + i];
+        value = (inputs[p].default_value.empty() ? 0.0 : inputs[p].default_value[static_cast<std::size_t>(i)]) + 0.3 * unit(random);
+        if (inputs[p].name == "hub_motion" && i < 2) value += i == 0 ? 3.0 * unit(random) : 41.0;
+      }
+  }
+
+  Vector output(std::size_t port, double t, const Vector& x, const Vector& u) {
+    Vector y = Vector::Zero(outputs[port].size);
+    model->evalOutput(static_cast<Index>(port), t, in(x), in(u), view(y));
+    return y;
+  }
+
+  std::unique_ptr<SubsystemModel> model;
+  std::vector<State> states;
+  std::vector<InputPort> inputs;
+  std::vector<OutputPort> outputs;
+  std::vector<Index> input_begin;
+  Index input_size = 0;
+};
+
+std::vector<Variant> variants() {
+  std::vector<Variant> list;
+  for (const ModelType& type : modelTypes())
+    for (const char* formulation : {"absolute_lag", "printed"})
+      for (const bool second_order : {true, false}) list.push_back({type.name, formulation, second_order});
+  return list;
+}
+
+class EveryModel : public testing::TestWithParam<Variant> {
+ protected:
+  Tested tested{GetParam()};
+  std::mt19937 random{11};
+};
+INSTANTIATE_TEST_SUITE_P(Registry, EveryModel, testing::ValuesIn(variants()), [](const auto& info) {
+  return info.param.type + "_" + info.param.formulation + (info.param.second_order ? "_hub_terms" : "");
+});
+
+TEST_P(EveryModel, evaluatesToFiniteNumbers) {
+  Vector x, u;
+  for (int k = 0; k < 50; ++k) {
+    tested.randomPoint(random, x, u);
+    for (std::size_t p = 0; p < tested.outputs.size(); ++p) EXPECT_TRUE(tested.output(p, 0.1 * k, x, u).allFinite()) << tested.outputs[p].name;
+    Vector xdot = Vector::Zero(x.size());
+    tested.model->evalDerivatives(0.1 * k, in(x), in(u), view(xdot));
+    EXPECT_TRUE(xdot.allFinite());
+  }
+}
+
+TEST_P(EveryModel, outputsReadTheInputsTheyDeclareAndNoOthers) {
+  Vector x, u;
+  for (std::size_t p = 0; p < tested.outputs.size(); ++p) {
+    const OutputPort& port = tested.outputs[p];
+    for (std::size_t q = 0; q < tested.inputs.size(); ++q) {
+      const bool declared = std::find(port.feedthrough.begin(), port.feedthrough.end(), tested.inputs[q].name) != port.feedthrough.end();
+      bool reads = false;
+      for (int k = 0; k < 10; ++k) {
+        tested.randomPoint(random, x, u);
+        const Vector before = tested.output(p, 0.3, x, u);
+        for (Index i = 0; i < tested.inputs[q].size; ++i) {
+          Vector moved = u;
+          moved[tested.input_begin[q] + i] += 0.01;
+          reads |= !(tested.output(p, 0.3, x, moved) == before);
+        }
+        if (declared) continue;
+        // Not a bit may depend on it, not even a value that then is multiplied by zero.
+        u.segment(tested.input_begin[q], tested.inputs[q].size).setConstant(std::nan(""));
+        EXPECT_EQ(tested.output(p, 0.3, x, u), before) << port.name << " reads " << tested.inputs[q].name << " without declaring it";
+      }
+      EXPECT_EQ(reads, declared) << port.name << (declared ? " declares feedthrough it does not have of " : " has undeclared feedthrough of ") << tested.inputs[q].name;
+    }
+  }
+}
+
+TEST_P(EveryModel, remainderIsDerivativesMinusStiffPart) {
+  const StiffPart part = tested.model->stiffPart();
+  ASSERT_EQ(stiffSize(part), static_cast<Index>(tested.states.size()));
+  const Matrix S = stiffMatrix(part);
+  Vector x, u;
+  for (int k = 0; k < 50; ++k) {
+    tested.randomPoint(random, x, u);
+    Vector f = Vector::Zero(x.size()), remainder = f;
+    tested.model->evalDerivatives(0.2 * k, in(x), in(u), view(f));
+    const Vector expected = f - S * x;
+    if (tested.model->providesRemainder()) tested.model->evalRemainder(0.2 * k, in(x), in(u), view(remainder));
+    else subtractStiff(part, in(x), in(f), view(remainder));
+    // Round-off of the terms that cancel.
+    const Vector scale = f.cwiseAbs() + S.cwiseAbs() * x.cwiseAbs();
+    for (Index i = 0; i < x.size(); ++i) EXPECT_NEAR(remainder[i], expected[i], 1e-14 * scale[i] + 1e-300) << tested.states[static_cast<std::size_t>(i)].name;
+  }
+}
+
+TEST_P(EveryModel, outputJacobiansAreTheDerivativesOfTheOutputs) {
+  Vector x, u;
+  for (std::size_t p = 0; p < tested.outputs.size(); ++p) {
+    for (int k = 0; k < 5; ++k) {
+      tested.randomPoint(random, x, u);
+      Matrix jacobian = Matrix::Zero(tested.outputs[p].size, tested.input_size);
+      if (!tested.model->outputJacobian(static_cast<Index>(p), 0.3, in(x), in(u), Eigen::Map<Matrix>(jacobian.data(), jacobian.rows(), jacobian.cols()))) continue;
+      for (Index j = 0; j < tested.input_size; ++j) {
+        // Central differences: truncation and round-off both near 1e-9 of the value with 1e-5.
+        Vector up = u, down = u;
+        up[j] += 1e-5;
+        down[j] -= 1e-5;
+        const Vector slope = (tested.output(p, 0.3, x, up) - tested.output(p, 0.3, x, down)) / 2e-5;
+        const double tolerance = 1e-8 * std::max(1.0, tested.output(p, 0.3, x, u).cwiseAbs().maxCoeff());
+        for (Index i = 0; i < slope.size(); ++i) EXPECT_NEAR(jacobian(i, j), slope[i], tolerance) << tested.outputs[p].name << ", " << i << ", " << j;
+      }
+    }
+  }
+}
+
+TEST_P(EveryModel, evaluatesWithoutTouchingTheHeap) {
+  if (!heapIsCounted()) GTEST_SKIP() << "the heap belongs to a sanitizer";
+  Vector x, u;
+  tested.randomPoint(random, x, u);
+  Vector xdot = Vector::Zero(x.size());
+  std::vector<Vector> y;
+  std::vector<Matrix> jacobian;
+  for (const OutputPort& port : tested.outputs) {
+    y.push_back(Vector::Zero(port.size));
+    jacobian.push_back(Matrix::Zero(port.size, tested.input_size));
+  }
+  std::uint64_t calls = 0;
+  {
+    HeapCalls heap;
+    for (std::size_t p = 0; p < tested.outputs.size(); ++p) {
+      const auto port = static_cast<Index>(p);
+      tested.model->evalOutput(port, 0.1, in(x), in(u), view(y[p]));
+      tested.model->outputJacobian(port, 0.1, in(x), in(u), Eigen::Map<Matrix>(jacobian[p].data(), jacobian[p].rows(), jacobian[p].cols()));
+    }
+    tested.model->evalDerivatives(0.1, in(x), in(u), view(xdot));
+    tested.model->evalRemainder(0.1, in(x), in(u), view(xdot));
+    calls = heap.count();
+  }
+  EXPECT_EQ(calls, 0u);
+}
+
+TEST_P(EveryModel, remembersNothing) {
+  // The state vector is everything: evaluating elsewhere in between must not change a bit.
+  Vector x, u, other_x, other_u;
+  tested.randomPoint(random, x, u);
+  tested.randomPoint(random, other_x, other_u);
+  const auto everything = [&](double t, const Vector& at_x, const Vector& at_u) {
+    Vector all = Vector::Zero(at_x.size());
+    tested.model->evalDerivatives(t, in(at_x), in(at_u), view(all));
+    for (std::size_t p = 0; p < tested.outputs.size(); ++p) {
+      const Vector y = tested.output(p, t, at_x, at_u);
+      all.conservativeResize(all.size() + y.size());
+      all.tail(y.size()) = y;
+    }
+    return all;
+  };
+  const Vector before = everything(0.4, x, u);
+  everything(7.0, other_x, other_u);
+  EXPECT_EQ(everything(0.4, x, u), before);
+}
+
+TEST_P(EveryModel, saysWhatItsPortsMean) {
+  for (const State& state : tested.states) EXPECT_FALSE(state.unit.empty() || state.meaning.empty()) << state.name;
+  for (const InputPort& port : tested.inputs) EXPECT_FALSE(port.unit.empty() || port.meaning.empty()) << port.name;
+  for (const OutputPort& port : tested.outputs) {
+    EXPECT_FALSE(port.unit.empty() || port.meaning.empty()) << port.name;
+    EXPECT_GT(port.nominal, 0.0) << port.name;
+  }
+}
+
+}  // namespace
+}  // namespace heerk_rotor

@@ -1,0 +1,90 @@
+// What every coupled system must keep. A new model type adds a complete system that contains it to systems().
+#include <functional>
+#include <set>
+
+#include "heerk_rotor/models/registry.hpp"
+#include "models/rotor_runs.hpp"
+
+namespace heerk_rotor {
+namespace {
+
+using namespace test;
+
+struct System {
+  std::string name;
+  std::function<Configuration(const Overrides&)> make;
+  double step;  // [s] in the asymptotic range of HERK4
+};
+
+/// Complete systems that together contain every registered type.
+std::vector<System> systems() {
+  const auto file = [](const std::string& name, const Overrides& fixed) {
+    return [name, fixed](const Overrides& more) { return shipped(name, fixed + more); };
+  };
+  const std::string disturbed = "subsystems.rotor.initial={lag_1: -0.03, lag_2: -0.04, lag_3: -0.03, lag_4: -0.04}";
+  return {{"lag_rotor", file("lag_rotor.yaml", {}), 1e-3},
+          {"lag_rotor_printed", file("lag_rotor.yaml", {"simulation.formulation=printed"}), 1e-3},
+          {"rigid_mast", file("lag_rotor.yaml", {"subsystems.mast={type: rigid_mast}"}), 1e-2},
+          {"controlled", file("lag_rotor_controlled.yaml", {disturbed}), 2e-4},
+          {"controlled_printed", file("lag_rotor_controlled.yaml", {disturbed, "simulation.formulation=printed"}), 2e-4},
+          {"monolithic", [](const Overrides& more) {
+             return Configuration::parse("simulation: {rotor_speed: 6.63, step: 1.0e-3}\nsubsystems:\n"
+                                         "  rotor: {type: monolithic_lag_rotor, mast_stiffness: 3.0e+4, initial: {lag_1: 0.01}}\n", "monolithic", more);
+           }, 1e-3}};
+}
+
+TEST(EverySystem, togetherTheyContainEveryType) {
+  std::set<std::string> types;
+  for (const System& system : systems()) {
+    const Configuration configuration = system.make({});
+    for (const auto& entry : configuration.root()["subsystems"]) types.insert(entry.second["type"].Scalar());
+  }
+  for (const ModelType& type : modelTypes()) EXPECT_EQ(types.count(type.name), 1u) << type.name << " needs a complete system in this test";
+}
+
+Vector endState(const System& system, const std::string& method, double h, double duration) {
+  auto simulation = buildSimulation(system.make({"simulation.integrator=" + method, set("simulation.step", h), "simulation.newton_tolerance=1e-13"}));
+  EXPECT_TRUE(advance(*simulation, std::lround(duration / h)));
+  return simulation->state();
+}
+
+TEST(EverySystem, hasTheSameLimitWithTheStiffPartRemoved) {
+  for (const System& system : systems()) {
+    const auto difference = [&](double h) {
+      const Vector a = endState(system, "HEERK4", h, 0.2), b = endState(system, "HERK4", h, 0.2);
+      return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+    };
+    const double coarse = difference(system.step), fine = difference(system.step / 2);
+    report("HEERK4 against HERK4, " + system.name + ", h " + std::to_string(system.step), coarse);
+    report("HEERK4 against HERK4, " + system.name + ", h / 2", fine);
+    // Both are of fourth order, so their difference is too, down to round-off; a wrong S would leave it where it is.
+    EXPECT_LE(fine, std::max(coarse / 10.0, 1e-12)) << system.name;
+    EXPECT_LE(fine, 1e-4) << system.name;
+  }
+}
+
+TEST(EverySystem, goesOnBitwiseEqualFromACheckpoint) {
+  for (const System& system : systems()) {
+    auto first = buildSimulation(system.make({}));
+    const auto command = [&](long k) {
+      Vector w = first->system().defaultCommand();
+      for (Index i = 0; i < w.size(); ++i) w[i] *= 1.0 + 0.01 * std::sin(0.05 * static_cast<double>(k) + static_cast<double>(i));
+      return w;
+    };
+    const auto run = [&](Simulation& simulation, long from, long to) {
+      for (long k = from; k < to; ++k) ASSERT_EQ(simulation.step(command(k)), StepStatus::kOk);
+    };
+    run(*first, 0, 333);
+    const Simulation::Checkpoint checkpoint = first->checkpoint();
+    run(*first, 333, 600);
+    auto second = buildSimulation(system.make({}));
+    run(*second, 0, 17);  // something else before, which must leave no trace
+    second->restore(checkpoint);
+    run(*second, 333, 600);
+    EXPECT_EQ(first->stateHash(), second->stateHash()) << system.name;
+    EXPECT_EQ(first->state(), second->state()) << system.name;
+  }
+}
+
+}  // namespace
+}  // namespace heerk_rotor
