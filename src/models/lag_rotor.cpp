@@ -131,6 +131,22 @@ double LagRotor::bladeReaction(const In& x, const In& u) const noexcept {
   return reaction;
 }
 
+bool LagRotor::outputJacobian(Index port, double, const In& x, const In& u, Eigen::Map<Matrix> jacobian) noexcept {
+  if (port != kBladeReaction || p_.second_order_hub_terms) return false;
+  const double relative_to_drive = absolute_ ? c_.g : 0.0;  // d(lag angle) / d(twist) = -g
+  jacobian.setZero();
+  for (int i = 0; i < kLagBlades; ++i) {
+    const double k = c_.r_a2 * u[kSpeed] * u[kSpeed] + p_.lag_frequency[i] * p_.lag_frequency[i];
+    jacobian(0, kSpeed) += 2.0 * c_.coupling_inertia * c_.r_a2 * u[kSpeed] * lagAngle(x, u, i);
+    jacobian(0, kTwist) -= c_.coupling_inertia * k * relative_to_drive;
+    jacobian(0, kTwistRate) -= c_.coupling_inertia * p_.lag_damper[i] / c_.lag_inertia * relative_to_drive;
+    jacobian(0, kForce + i) = p_.hinge_offset;
+    jacobian(0, kMoment + i) = 1.0 - c_.coupling_inertia / c_.lag_inertia;
+  }
+  if (!absolute_) jacobian(0, kHubAcceleration) = kLagBlades * c_.coupling_inertia * c_.g;
+  return true;
+}
+
 void LagRotor::hubForce(const In& x, const In& u, Out y) const noexcept {
   const Accelerations a = accelerations(x, u);
   const double force_x = p_.fuselage_mass_x * a.x + p_.fuselage_damping_x * x[kXRate] + c_.mass_x * p_.fuselage_frequency_x * p_.fuselage_frequency_x * x[kX];

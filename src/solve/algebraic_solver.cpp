@@ -17,12 +17,12 @@ constexpr double kRoundOff = 64 * 2.2e-16; // a residual below this share of the
 
 /// A plan with the numbers that solving it needs.
 struct Loop {
-  explicit Loop(const LoopPlan& p) : plan(p), lu(p.gradient), matrix(p.gradient.rows.size(), 0.0), nominal(p.unknowns.size(), 1.0),
+  explicit Loop(const LoopPlan& p) : plan(p), lu(p.gradient), matrix(p.gradient.rows.size(), 0.0), nominal(p.unknowns.size(), 1.0), inverse_nominal(nominal),
         step(p.unknowns.size(), 0.0), reference(p.unknowns.size(), 0.0), kept(p.unknowns.size(), 0.0) {}
   LoopPlan plan;
   SparseLu lu;
   std::vector<double> matrix;            // I - dg/dy in units of the nominal magnitudes, in the order of plan.gradient.rows
-  std::vector<double> nominal;           // magnitude of each unknown; makes pivots of different quantities comparable
+  std::vector<double> nominal, inverse_nominal;  // magnitude of each unknown; makes pivots of different quantities comparable
   bool factorized = false;
   std::vector<double> step, reference, kept;
   std::vector<double> jacobian;          // scratch for a model's own Jacobian
@@ -66,7 +66,6 @@ struct AlgebraicSolver::Implementation {
     ++evaluations[output.subsystem];
   }
 
-
   /// y of a port from g, sparing the entries that are being iterated.
   void adopt(Index port) noexcept {
     const CoupledSystem::Output& output = system.outputs()[port];
@@ -74,27 +73,23 @@ struct AlgebraicSolver::Implementation {
       if (!is_unknown[e]) y[e] = g[e];
   }
 
-  /// Residual g - y of the unknowns into loop.step; its maximum norm over max(nominal, |y|), and the entry that has it.
-  double residual(Loop& loop, double t, const Vector& x, const Vector& w, Index& worst) noexcept {
+  /// Residual g - y of the unknowns into loop.step, all else that the loop reads being known.
+  void residual(Loop& loop, double t, const Vector& x, const Vector& w) noexcept {
     ++counters.residual_evaluations;
     for (const Index input : loop.plan.core_inputs) gather(input, w);
-    double norm = 0.0;
-    std::size_t k = 0;
-    for (const Index port : loop.plan.core) {
-      evaluate(port, t, x);
-      const CoupledSystem::Output& output = system.outputs()[port];
-      for (; k < loop.plan.unknowns.size() && loop.plan.unknowns[k] < output.begin + output.size; ++k) {
-        const Index e = loop.plan.unknowns[k];
-        loop.step[k] = g[e] - y[e];
-        double scaled = std::abs(loop.step[k]) / std::max(output.nominal, std::abs(y[e]));
-        if (!std::isfinite(scaled)) scaled = HUGE_VAL;
-        if (scaled > norm) {
-          norm = scaled;
-          worst = e;
-        }
-      }
+    for (const Index port : loop.plan.core) evaluate(port, t, x);
+    for (std::size_t k = 0; k < loop.plan.unknowns.size(); ++k) {
+      const Index e = loop.plan.unknowns[k];
+      loop.step[k] = g[e] - y[e];
     }
-    return norm;
+  }
+
+  bool residualIsRoundOff(const Loop& loop) const noexcept {
+    for (std::size_t k = 0; k < loop.plan.unknowns.size(); ++k) {
+      const Index e = loop.plan.unknowns[k];
+      if (!(std::abs(g[e] - y[e]) <= kRoundOff * std::max(loop.nominal[k], std::abs(y[e])))) return false;
+    }
+    return true;
   }
 
   /// matrix = I - dg/dy at the present y: forward differences colour by colour, then the rows models know themselves.
@@ -102,8 +97,7 @@ struct AlgebraicSolver::Implementation {
     ++counters.jacobians;
     const LoopPlan& p = loop.plan;
     const auto n = p.unknowns.size();
-    Index unused = -1;
-    residual(loop, t, x, w, unused);
+    residual(loop, t, x, w);
     for (std::size_t k = 0; k < n; ++k) {
       loop.reference[k] = g[p.unknowns[k]];
       loop.kept[k] = y[p.unknowns[k]];
@@ -114,7 +108,7 @@ struct AlgebraicSolver::Implementation {
         const Index e = p.unknowns[j];
         y[e] = loop.kept[j] + kDifference * std::max(std::abs(loop.kept[j]), loop.nominal[j]);
       }
-      residual(loop, t, x, w, unused);
+      residual(loop, t, x, w);
       for (std::size_t j = 0; j < n; ++j) {
         if (p.colour[j] != colour) continue;
         const double width = y[p.unknowns[j]] - loop.kept[j];
@@ -126,7 +120,7 @@ struct AlgebraicSolver::Implementation {
         y[p.unknowns[j]] = loop.kept[j];
       }
     }
-    residual(loop, t, x, w, unused);  // u and g belong to y again
+    residual(loop, t, x, w);  // u and g belong to y again
     applyModelJacobians(loop, t, x);
     ++counters.factorizations;
     loop.factorized = loop.lu.factorize(loop.matrix);
@@ -160,20 +154,23 @@ struct AlgebraicSolver::Implementation {
     }
   }
 
-  /// loop.step (a residual) becomes the Newton correction; its scaled maximum norm estimates the error of the unknowns.
+  /// loop.step (a residual) becomes the Newton correction. Its maximum over max(nominal, |y|), infinite when not finite,
+  /// estimates the error of the unknowns; `worst` is the entry that has it.
   double correction(Loop& loop, Index& worst) noexcept {
-    const LoopPlan& p = loop.plan;
-    for (std::size_t k = 0; k < p.unknowns.size(); ++k) loop.step[k] /= loop.nominal[k];
+    const std::size_t n = loop.step.size();
+    for (std::size_t k = 0; k < n; ++k) loop.step[k] *= loop.inverse_nominal[k];
     loop.lu.solve(loop.step.data());
-    double norm = 0.0;
-    for (std::size_t k = 0; k < p.unknowns.size(); ++k) {
-      loop.step[k] *= loop.nominal[k];
-      double scaled = std::abs(loop.step[k]) / std::max(loop.nominal[k], std::abs(y[p.unknowns[k]]));
+    double norm = -1.0;
+    for (std::size_t k = 0; k < n; ++k) {
+      const Index e = loop.plan.unknowns[k];
+      double scaled = std::abs(loop.step[k]);
+      if (const double size = std::abs(y[e]) * loop.inverse_nominal[k]; size > 1.0) scaled /= size;
       if (!std::isfinite(scaled)) scaled = HUGE_VAL;
       if (scaled > norm) {
         norm = scaled;
-        worst = p.unknowns[k];
+        worst = e;
       }
+      loop.step[k] *= loop.nominal[k];
     }
     return norm;
   }
@@ -185,16 +182,12 @@ struct AlgebraicSolver::Implementation {
     double previous = HUGE_VAL;
     bool fresh = false;
     for (;; ++report.iterations) {
-      const double remaining = residual(loop, t, x, w, report.entry);
-      if (remaining == 0.0) {
-        report.error = 0.0;
-        return report;
-      }
+      residual(loop, t, x, w);
       if (!loop.factorized && !refresh(loop, t, x, w)) break;
       report.error = correction(loop, report.entry);
       if (report.error <= options.tolerance) return report;
       if (!(report.error <= kLostContraction * previous)) {
-        if (remaining <= kRoundOff) return report;  // as good as the numbers allow
+        if (residualIsRoundOff(loop)) return report;  // corrections only stir round-off
         if (report.iterations > 0 && !fresh) {
           if (!refresh(loop, t, x, w)) break;
           report.error = correction(loop, report.entry);
@@ -319,7 +312,7 @@ AlgebraicSolver::AlgebraicSolver(CoupledSystem& system, const SolverOptions& opt
       for (std::size_t k = 0; k < loop->nominal.size(); ++k)
         for (const Index port : loop->plan.outputs)
           if (const CoupledSystem::Output& output = system.outputs()[port]; loop->plan.unknowns[k] >= output.begin && loop->plan.unknowns[k] < output.begin + output.size)
-            loop->nominal[k] = output.nominal;
+            loop->inverse_nominal[k] = 1.0 / (loop->nominal[k] = output.nominal);
     }
     s.markUnknowns(l);
   }

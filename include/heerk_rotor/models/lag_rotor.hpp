@@ -34,6 +34,9 @@ class LagRotor : public SubsystemModel {
   std::vector<OutputPort> outputs() const override;
   void evalOutput(Index port, double t, const In& x, const In& u, Out y) noexcept override;
   void evalDerivatives(double t, const In& x, const In& u, Out xdot) noexcept override;
+  /// Of the blade reaction, while it is free of the second-order terms: an exact gradient saves the loop with the mast one
+  /// Newton iteration, because 1 / (1 - q) amplifies the error of differences as well.
+  bool outputJacobian(Index port, double t, const In& x, const In& u, Eigen::Map<Matrix> jacobian) noexcept override;
   void completeInitialState(const In& u, Out x) const override;
 
  private:
