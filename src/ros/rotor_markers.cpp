@@ -43,7 +43,7 @@ void toMarkers(const RotorReading& reading, const RotorGeometry& geometry, const
   message.markers.resize(static_cast<std::size_t>(reading.blades) + 1);
   for (visualization_msgs::Marker& marker : message.markers) {
     marker.header.stamp = stamp;
-    marker.header.frame_id = frames::kHub;
+    marker.header.frame_id = frames::kRotor;
     marker.action = visualization_msgs::Marker::ADD;
     marker.frame_locked = true;  // drawn with the newest transform: no flicker when tf arrives later
   }
@@ -52,8 +52,9 @@ void toMarkers(const RotorReading& reading, const RotorGeometry& geometry, const
   const Vector3d hinge(geometry.hinge_offset, 0.0, 0.0), middle(0.5 * (geometry.root_cutout + geometry.radius) - geometry.hinge_offset, 0.0, 0.0);
   for (int k = 0; k < reading.blades; ++k) {
     visualization_msgs::Marker& blade = message.markers[static_cast<std::size_t>(k)];
-    // psi = 0 is aft, hence the half turn; then flap (up positive: about -y), lag (lead positive: about +z), pitch about x.
-    const Eigen::Quaterniond azimuth(AngleAxisd(std::remainder(reading.azimuth + kTwoPi * k / reading.blades, kTwoPi) + 0.5 * kTwoPi, Vector3d::UnitZ()));
+    // The azimuth is in tf: an angle of its own would differ from the robot model's by what turns between two messages.
+    // Flap is about -y (up positive), lag about +z (lead positive), pitch about x.
+    const Eigen::Quaterniond azimuth(AngleAxisd(kTwoPi * k / reading.blades, Vector3d::UnitZ()));
     const Eigen::Quaterniond hinged = AngleAxisd(-reading.flap[k], Vector3d::UnitY()) * Eigen::Quaterniond(AngleAxisd(reading.lag[k], Vector3d::UnitZ()));
     const Eigen::Quaterniond pitched(AngleAxisd(reading.pitch[k], Vector3d::UnitX()));
     assign(Vector3d(azimuth * (hinge + hinged * middle)), blade.pose.position);
@@ -69,6 +70,7 @@ void toMarkers(const RotorReading& reading, const RotorGeometry& geometry, const
 
   visualization_msgs::Marker& arrow = message.markers.back();
   arrow.ns = "hub_force";
+  arrow.header.frame_id = frames::kHub;
   arrow.type = visualization_msgs::Marker::ARROW;
   arrow.pose.orientation.w = 1.0;
   arrow.points.resize(2);

@@ -29,20 +29,21 @@ Eigen::Quaterniond rotation(const visualization_msgs::Marker& m) { return {m.pos
 /// The end of the blade plate.
 Eigen::Vector3d tip(const visualization_msgs::Marker& m) { return position(m) + rotation(m) * Eigen::Vector3d(0.5 * m.scale.x, 0.0, 0.0); }
 
-TEST(RotorMarkers, atAzimuthZeroBladeOneIsAftAndBladeTwoToStarboard) {
-  const auto markers = draw(fourBlades(0.0));
+TEST(RotorMarkers, bladesStandInTheTurningFrameWhateverTheAzimuth) {
+  const auto markers = draw(fourBlades(1.234));
   ASSERT_EQ(markers.markers.size(), 5u);
-  // hub_link: x forward, y left
-  EXPECT_LT((tip(markers.markers[0]) - Eigen::Vector3d(-5.0, 0.0, 0.0)).norm(), 1e-12);
-  EXPECT_LT((tip(markers.markers[1]) - Eigen::Vector3d(0.0, -5.0, 0.0)).norm(), 1e-12);
-  for (const auto& marker : markers.markers) EXPECT_EQ(marker.header.frame_id, "hub_link");
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_EQ(markers.markers[k].header.frame_id, "rotor_link");
+    const double psi = k * 0.5 * M_PI;
+    EXPECT_LT((tip(markers.markers[k]) - Eigen::Vector3d(5.0 * std::cos(psi), 5.0 * std::sin(psi), 0.0)).norm(), 1e-12) << k;
+  }
+  EXPECT_EQ(markers.markers[4].header.frame_id, "hub_link");
 }
 
 TEST(RotorMarkers, leadTurnsTheBladeWithTheRotationAboutItsHinge) {
   RotorReading r = fourBlades(0.0);
   r.lag[0] = 0.1;
-  // Blade 1 points aft (-x) and moves to starboard (-y): leading, its tip is further in -y.
-  const Eigen::Vector3d expected(-0.2 - 4.8 * std::cos(0.1), -4.8 * std::sin(0.1), 0.0);
+  const Eigen::Vector3d expected(0.2 + 4.8 * std::cos(0.1), 4.8 * std::sin(0.1), 0.0);
   EXPECT_LT((tip(draw(r).markers[0]) - expected).norm(), 1e-12);
 }
 

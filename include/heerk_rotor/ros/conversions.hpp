@@ -28,6 +28,7 @@ namespace frames {
 constexpr const char* kOdom = "odom";
 constexpr const char* kBase = "base_link";
 constexpr const char* kHub = "hub_link";
+constexpr const char* kRotor = "rotor_link";  // turns with the hub: child of rotor_joint, whose position is the azimuth
 }  // namespace frames
 
 void toRotorState(const RotorReading& reading, const ros::Time& stamp, const PublisherNote& note, RotorState& message);
