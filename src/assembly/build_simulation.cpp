@@ -105,6 +105,7 @@ class SystemBuilder {
       const double value = section_of_initial.number(key, state.initial, state.unit);  // also makes the key known
       if (given) initial[key] = value;
     }
+    for (const std::string& key : model->ignoredInitialValues()) section_of_initial.number(key, 0.0, "-");
     section_of_initial.finish();
     const std::vector<OutputPort> outputs = model->outputs();
     const std::vector<InputPort> inputs = model->inputs();

@@ -63,6 +63,7 @@ RotorView::RotorView(const CoupledSystem& system) {
   flap_ = findPerBlade("flap");
   flap_rate_ = findPerBlade("flap_rate");
   pitch_ = findPerBlade("pitch");
+  pitch_rate_ = findPerBlade("pitch_rate");
   tip_twist_ = findPerBlade("tip_twist");
   hub_force_ = find("hub_force", 3);
   hub_moment_ = find("hub_moment", 3);
@@ -93,7 +94,7 @@ RotorView::RotorView(const CoupledSystem& system) {
   longitudinal_cyclic_ = findCommand("longitudinal_cyclic");
 }
 
-void RotorView::read(const Sample& sample, RotorReading& reading) noexcept {
+void RotorView::read(const Sample& sample, RotorReading& reading) const noexcept {
   const auto copy = [&sample](const Range& range, auto& target) {
     if (range.begin >= 0) std::copy_n(sample.y.data() + range.begin, range.size, target.begin());
   };
@@ -111,6 +112,7 @@ void RotorView::read(const Sample& sample, RotorReading& reading) noexcept {
   copy(flap_, reading.flap);
   copy(flap_rate_, reading.flap_rate);
   copy(pitch_, reading.pitch);
+  copy(pitch_rate_, reading.pitch_rate);
   copy(tip_twist_, reading.tip_twist);
   multiblade(reading.lag, blades_, reading.azimuth, reading.lag_collective, reading.lag_cosine, reading.lag_sine);
   multiblade(reading.flap, blades_, reading.azimuth, reading.flap_collective, reading.flap_cosine, reading.flap_sine);
@@ -130,10 +132,8 @@ void RotorView::read(const Sample& sample, RotorReading& reading) noexcept {
   reading.lateral_cyclic = command(lateral_cyclic_);
   reading.longitudinal_cyclic = command(longitudinal_cyclic_);
 
-  reading.newton_iterations = static_cast<std::uint32_t>(sample.counters.newton_iterations - last_iterations_);
-  reading.residual_evaluations = static_cast<std::uint32_t>(sample.counters.residual_evaluations - last_evaluations_);
-  last_iterations_ = sample.counters.newton_iterations;
-  last_evaluations_ = sample.counters.residual_evaluations;
+  reading.newton_iterations = static_cast<std::uint32_t>(sample.newton_iterations);
+  reading.residual_evaluations = static_cast<std::uint32_t>(sample.residual_evaluations);
 }
 
 }  // namespace heerk_rotor

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <set>
 
 #include "heerk_rotor/core/nearest_name.hpp"
@@ -47,6 +48,7 @@ void checkPorts(const std::string& name, const std::vector<State>& states, const
     const auto size = static_cast<std::size_t>(port.size);
     if (!port.default_value.empty() && port.default_value.size() != size) fail("input " + port.name + ": default_value has the wrong length");
     if (!port.entries.empty() && port.entries.size() != size) fail("input " + port.name + ": entries has the wrong length");
+    if ((!port.low.empty() && port.low.size() != size) || (!port.high.empty() && port.high.size() != size)) fail("input " + port.name + ": low or high has the wrong length");
   }
   const std::set<std::string> known = seen;
   seen.clear();
@@ -158,7 +160,7 @@ CoupledSystem CouplingGraph::build() && {
 
   CoupledSystem system;
   std::vector<Index> first_input, first_output;  // global port numbers of each model
-  std::vector<double> initial, command;
+  std::vector<double> initial, command, low, high;
 
   // Subsystems, ports and signals one after the other; offsets follow the order of add().
   for (Entry& entry : entries_) {
@@ -177,6 +179,10 @@ CoupledSystem CouplingGraph::build() && {
         input.command = static_cast<Index>(command.size());
         for (const std::string& name : entryNames(port)) system.command_names_.push_back(entry.name + "." + name);
         command.insert(command.end(), input.default_value.begin(), input.default_value.end());
+        for (Index i = 0; i < port.size; ++i) {
+          low.push_back(port.low.empty() ? -HUGE_VAL : port.low[static_cast<std::size_t>(i)]);
+          high.push_back(port.high.empty() ? HUGE_VAL : port.high[static_cast<std::size_t>(i)]);
+        }
       }
       subsystem.u_size += port.size;
       system.inputs_.push_back(std::move(input));
@@ -216,6 +222,8 @@ CoupledSystem CouplingGraph::build() && {
 
   system.declared_initial_ = Eigen::Map<const Vector>(initial.data(), static_cast<Index>(initial.size()));
   system.default_command_ = Eigen::Map<const Vector>(command.data(), static_cast<Index>(command.size()));
+  system.command_low_ = Eigen::Map<const Vector>(low.data(), static_cast<Index>(low.size()));
+  system.command_high_ = Eigen::Map<const Vector>(high.data(), static_cast<Index>(high.size()));
   return system;
 }
 

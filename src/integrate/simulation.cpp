@@ -38,6 +38,7 @@ Simulation::Simulation(CoupledSystem system, const StepOptions& options) : syste
     propagators_.push_back(subsystem.x_size > 0 ? makePropagator(subsystem.stiff, options_.step, *options_.method) : nullptr);
   solver_ = std::make_unique<AlgebraicSolver>(system_, options_.solver, t0_, x_, w_);
   initial_cache_ = solver_->cache();
+  at_last_instant_ = solver_->counters();
 }
 
 Simulation::~Simulation() = default;
@@ -63,6 +64,18 @@ bool Simulation::stateIsFinite(const Vector& x, double t) noexcept {
   return false;
 }
 
+bool Simulation::outputsAreFinite() noexcept {
+  const Index i = firstNonFinite(solver_->y().data(), solver_->y().size());
+  if (i < 0) return true;
+  status_ = StepStatus::kNonFinite;
+  failure_time_ = modelTime();
+  failure_entry_ = i;
+  failure_in_output_ = true;
+  return false;
+}
+
+void Simulation::removeObserver(Observer& observer) { observers_.erase(std::remove(observers_.begin(), observers_.end(), &observer), observers_.end()); }
+
 void Simulation::combine(int row, Vector& result) const noexcept {
   for (std::size_t k = 0; k < propagators_.size(); ++k) {
     if (!propagators_[k]) continue;
@@ -80,11 +93,16 @@ StepStatus Simulation::observe(const Vector& command) noexcept {
     solved_ = true;
   }
   bool observed = false;
+  const SolverCounters& counters = solver_->counters();
   for (Observer* observer : observers_) {
     if (!observer->wants(step_)) continue;
-    if (!observed) solver_->evalObserved(modelTime(), x_, w_);
+    if (!observed) {
+      solver_->evalObserved(modelTime(), x_, w_);
+      if (!outputsAreFinite()) return status_;
+    }
     observed = true;
-    observer->observe({step_, epoch_, time(), x_, w_, solver_->y(), solver_->counters()});
+    observer->observe({step_, epoch_, time(), x_, w_, solver_->y(), counters, counters.newton_iterations - at_last_instant_.newton_iterations,
+                       counters.residual_evaluations - at_last_instant_.residual_evaluations});
   }
   return status_;
 }
@@ -92,6 +110,7 @@ StepStatus Simulation::observe(const Vector& command) noexcept {
 StepStatus Simulation::step(const Vector& command) noexcept {
   if (observe(command) != StepStatus::kOk) return status_;
 
+  at_last_instant_ = solver_->counters();
   const Tableau& method = *options_.method;
   const bool complete = !method.exponential;
   const double t = modelTime(), h = options_.step;
@@ -117,6 +136,7 @@ void Simulation::reset() {
   t0_ = 0.0;
   step0_ = static_cast<std::int64_t>(step_);
   ++epoch_;
+  at_last_instant_ = solver_->counters();
   solved_ = false;
   status_ = StepStatus::kOk;
 }
@@ -188,6 +208,7 @@ void Simulation::restore(const Checkpoint& checkpoint, bool new_epoch) {
     step_ = checkpoint.step;
     epoch_ = checkpoint.epoch;
   }
+  at_last_instant_ = solver_->counters();
   solved_ = false;
   status_ = StepStatus::kOk;
 }

@@ -15,7 +15,7 @@ std::vector<State> Drive::states() const {
 }
 
 std::vector<InputPort> Drive::inputs() const {
-  return {{"speed_command", 1, "rad/s", "rotor speed asked for", Unconnected::kCommand, {p_.rotor_speed}, {"speed"}}};
+  return {{"speed_command", 1, "rad/s", "rotor speed asked for", Unconnected::kCommand, {p_.rotor_speed}, {"speed"}, {p_.min_speed}, {p_.max_speed}}};
 }
 
 std::vector<OutputPort> Drive::outputs() const {

@@ -28,7 +28,7 @@ LagAirloads::LagAirloads(const Parameters& parameters) : p_(parameters), disc_ar
 }
 
 std::vector<InputPort> LagAirloads::inputs() const {
-  return {{"hub_motion", 4, "rad, rad/s", "azimuth and speed of the hub, mast twist and its rate", Unconnected::kError, {}, {"azimuth", "speed", "twist", "twist_rate"}},
+  return {hubMotionInput(),
           {"pitch", kBlades, "rad", "pitch of each blade at 0.75 R, nose up positive", Unconnected::kError},
           {"lag_rate", kBlades, "rad/s", "lag rate of each blade, lead positive", Unconnected::kError},
           {"hub_velocity", 3, "m/s", "velocity of the hub in hub_link (x forward, y left, z up; z is not used)", Unconnected::kDefault, {}, {"x", "y", "z"}}};

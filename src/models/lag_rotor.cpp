@@ -32,7 +32,7 @@ std::vector<State> LagRotor::states() const {
 }
 
 std::vector<InputPort> LagRotor::inputs() const {
-  return {{"hub_motion", 4, "rad, rad/s", "azimuth and speed of the hub, mast twist and its rate", Unconnected::kError, {}, {"azimuth", "speed", "twist", "twist_rate"}},
+  return {hubMotionInput(),
           {"hub_acceleration", 2, "rad/s^2", "angular acceleration of the hub and of the drive", Unconnected::kError, {}, {"hub", "drive"}},
           {"blade_load", 8, "N, N m", "tangential airload of each blade towards lead, then its moment about the lag hinge", Unconnected::kDefault,
            {}, {"force_1", "force_2", "force_3", "force_4", "moment_1", "moment_2", "moment_3", "moment_4"}},

@@ -21,8 +21,9 @@ std::vector<State> Swashplate::states() const {
 
 std::vector<InputPort> Swashplate::inputs() const {
   return {{"command", 3, "rad", "collective at 0.75 R, lateral cyclic theta_1c, longitudinal cyclic theta_1s", Unconnected::kCommand,
-           {p_.trim[0], p_.trim[1], p_.trim[2]}, {kNames[0], kNames[1], kNames[2]}},
-          {"hub_motion", 4, "rad, rad/s", "azimuth and speed of the hub, mast twist and its rate", Unconnected::kError, {}, {"azimuth", "speed", "twist", "twist_rate"}}};
+           {p_.trim[0], p_.trim[1], p_.trim[2]}, {kNames[0], kNames[1], kNames[2]},
+           {p_.collective_min, -p_.cyclic_limit, -p_.cyclic_limit}, {p_.collective_max, p_.cyclic_limit, p_.cyclic_limit}},
+          hubMotionInput()};
 }
 
 std::vector<OutputPort> Swashplate::outputs() const {

@@ -201,6 +201,7 @@ struct AlgebraicSolver::Implementation {
       for (std::size_t k = 0; k < loop.plan.unknowns.size(); ++k) y[loop.plan.unknowns[k]] += loop.step[k];
       ++counters.newton_iterations;
     }
+    if (report.entry < 0) report.entry = loop.plan.unknowns.front();
     const bool finite = std::isfinite(report.error) && std::all_of(loop.matrix.begin(), loop.matrix.end(), [](double v) { return std::isfinite(v); });
     report.status = !finite ? SolveStatus::kNonFinite : loop.factorized ? SolveStatus::kStalled : SolveStatus::kSingular;
     return report;
@@ -354,7 +355,6 @@ const Vector& AlgebraicSolver::u() const { return impl_->u; }
 const SolverCounters& AlgebraicSolver::counters() const { return impl_->counters; }
 const std::vector<std::uint64_t>& AlgebraicSolver::outputEvaluations() const { return impl_->evaluations; }
 const std::vector<LoopInfo>& AlgebraicSolver::loops() const { return impl_->infos; }
-SolverOptions& AlgebraicSolver::options() { return impl_->options; }
 
 std::vector<double> AlgebraicSolver::cache() const {
   std::vector<double> cache(impl_->y.begin(), impl_->y.end());

@@ -63,6 +63,7 @@ void writeFailureDump(const std::string& file, Simulation& simulation, const Rec
       instant.solver_cache = instants.start().solver_cache;
     }
   }
+  simulation.removeObserver(recorder);
   recorder.close();
 }
 

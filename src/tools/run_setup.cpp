@@ -1,6 +1,8 @@
 #include "heerk_rotor/tools/run_setup.hpp"
 
+#include <algorithm>
 #include <cstdlib>
+#include <iostream>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -97,6 +99,28 @@ RunSetup setUpRun(const SimulateOptions& options) {
   return fresh(Configuration::load(options.configuration, options.overrides));
 }
 
+namespace {
+
+/// What the model would clamp is clamped here already, so that recorded commands are those in effect.
+void clampToRange(std::vector<CommandRow>& rows, const std::array<Index, 3>& entries, const CoupledSystem& system, const std::string& file) {
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    const double low = system.commandLow()[entries[k]], high = system.commandHigh()[entries[k]];
+    std::size_t clamped = 0;
+    double first = 0.0;
+    for (CommandRow& row : rows) {
+      const double allowed = std::clamp(row.commands[k], low, high);
+      if (allowed == row.commands[k]) continue;
+      if (clamped++ == 0) first = row.time;
+      row.commands[k] = allowed;
+    }
+    if (clamped > 0)
+      std::cerr << "warning: " << file << ": " << system.commandNames()[static_cast<std::size_t>(entries[k])] << " of " << clamped << " rows clamped to the travel ["
+                << low << ", " << high << "] rad, first at " << first << " s\n";
+  }
+}
+
+}  // namespace
+
 CommandSchedule openCommands(const std::string& file, const Simulation& simulation) {
   std::vector<CommandRow> rows = readCommandFile(file);
   const RotorView view(simulation.system());
@@ -111,6 +135,7 @@ CommandSchedule openCommands(const std::string& file, const Simulation& simulati
                         (commands.empty() ? std::string("no commands") : commands)});
       throw ConfigurationError(problems);
     }
+  clampToRange(rows, entries, simulation.system(), file);
   // A millionth of a step absorbs the round-off of t = t0 + k h up to about 1e9 steps.
   return CommandSchedule(std::move(rows), entries, 1e-6 * simulation.stepSize());
 }

@@ -1,5 +1,6 @@
 #include "heerk_rotor/assembly/build_simulation.hpp"
 
+#include <algorithm>
 #include <unistd.h>
 
 #include <filesystem>
@@ -68,6 +69,20 @@ TEST(BuildSimulation, startsFromTheInitialValuesOfTheFileAndTheCommandLine) {
 TEST(BuildSimulation, exchangesASubsystemFromTheCommandLine) {
   const auto simulation = buildSimulation(Configuration::load(kLagRotor, {"subsystems.mast={type: rigid_mast}"}));
   EXPECT_EQ(simulation->system().stateSize(), 12);
+}
+
+TEST(BuildSimulation, swapsTheMastByOneWordInEveryShippedFile) {
+  EXPECT_EQ(buildSimulation(Configuration::load(kLagRotor, {"subsystems.mast.type=rigid_mast"}))->system().stateSize(), 12);
+  EXPECT_EQ(buildSimulation(Configuration::load(kControlled, {"subsystems.mast.type=rigid_mast"}))->system().stateSize(), 12 + 6 + 3);
+}
+
+TEST(BuildSimulation, knowsTheTravelOfTheControls) {
+  const auto simulation = buildSimulation(Configuration::load(kControlled, {"subsystems.swashplate.collective_max=0.3"}));
+  const CoupledSystem& system = simulation->system();
+  const auto entry = [&](const std::string& name) { return std::find(system.commandNames().begin(), system.commandNames().end(), name) - system.commandNames().begin(); };
+  EXPECT_EQ(system.commandHigh()[entry("swashplate.collective")], 0.3);
+  EXPECT_EQ(system.commandLow()[entry("swashplate.longitudinal_cyclic")], -0.1745);
+  EXPECT_EQ(system.commandLow()[entry("drive.speed")], 20.5);
 }
 
 TEST(BuildSimulation, givesTheSameSimulationFromTheResolvedText) {

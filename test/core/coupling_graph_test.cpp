@@ -1,5 +1,7 @@
 #include "heerk_rotor/core/coupling_graph.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "../solve/function_model.hpp"
@@ -96,6 +98,7 @@ TEST(CoupledSystem, unconnectedCommandsBecomeW) {
       .derivatives([](double, const In&, const In& u, Out xdot) { xdot[0] = u[1]; }).make());
   const CoupledSystem system = std::move(graph).build();
   EXPECT_EQ(system.commandNames(), (std::vector<std::string>{"plate.command_1", "plate.command_2"}));
+  EXPECT_EQ(system.commandLow()[0], -HUGE_VAL);  // no range stated
   Vector u = Vector::Zero(2);
   system.gather(0, Vector(), Vector(Eigen::Vector2d(3.0, 4.0)), u);
   EXPECT_EQ(u[1], 4.0);

@@ -1,6 +1,7 @@
 #include "heerk_rotor/integrate/simulation.hpp"
 
 #include <cmath>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -43,7 +44,7 @@ struct Recorder : Observer {
     times.push_back(sample.t);
     states.push_back(sample.x);
     outputs.push_back(sample.y);
-    commands.push_back(sample.w[0]);
+    commands.push_back(sample.w.size() > 0 ? sample.w[0] : 0.0);
     epochs.push_back(sample.epoch);
   }
   std::vector<std::uint64_t> steps;
@@ -177,6 +178,44 @@ TEST(Simulation, paperToleranceFollowsTheStep) {
   o.revolution = 1.0;  // h_ref = 0.01
   Simulation simulation(pendulum(), o);
   EXPECT_NEAR(simulation.options().solver.tolerance, 1e-3 * std::pow(0.1, 4), 1e-20);
+}
+
+/// Looks at every n-th step only, and keeps what each instant says the solver spent.
+struct SpentRecorder : Observer {
+  explicit SpentRecorder(std::uint64_t every) : every(every) {}
+  bool wants(std::uint64_t step) const noexcept override { return step % every == 0; }
+  void observe(const Sample& sample) noexcept override { spent[sample.step] = {sample.newton_iterations, sample.residual_evaluations}; }
+  std::uint64_t every;
+  std::map<std::uint64_t, std::pair<std::uint64_t, std::uint64_t>> spent;
+};
+
+TEST(Simulation, whatTheSolverSpentIsCountedPerStepHoweverRarelyOneLooks) {
+  Simulation simulation(pendulum(), options());
+  SpentRecorder often(1), seldom(10);
+  simulation.addObserver(often);
+  simulation.addObserver(seldom);
+  for (int k = 0; k < 50; ++k) simulation.step(command(0.2));
+  for (const auto& [step, spent] : seldom.spent) EXPECT_EQ(spent, often.spent[step]) << step;
+  std::uint64_t total = 0;
+  for (const auto& [step, spent] : often.spent) total += spent.second;
+  EXPECT_GT(total, 200u);  // five solutions a step, each looks at the residual at least once
+  EXPECT_LE(total, simulation.solver().counters().residual_evaluations);
+}
+
+TEST(Simulation, anOutputThatIsNotFiniteStopsTheRunEvenWhenOnlyObserversReadIt) {
+  CouplingGraph graph;
+  graph.add("s", FunctionModel().state("x", 1.0).derivatives([](double, const In&, const In&, Out xdot) { xdot[0] = -10.0; })
+      .output("root", 1, {}, [](double, const In& x, const In&, Out y) { y[0] = std::sqrt(x[0]); }).make());
+  Simulation simulation(std::move(graph).build(), options("HERK4", 0.04));
+  Recorder recorder;
+  simulation.addObserver(recorder);
+  StepStatus status = StepStatus::kOk;
+  for (int k = 0; k < 10 && status == StepStatus::kOk; ++k) status = simulation.step(Vector());
+  EXPECT_EQ(status, StepStatus::kNonFinite);
+  EXPECT_EQ(simulation.failure().where, "s.root");
+  EXPECT_EQ(simulation.stepCount(), 3u);  // x = -0.2 there
+  for (const Vector& y : recorder.outputs) EXPECT_TRUE(std::isfinite(y[0]));
+  simulation.removeObserver(recorder);
 }
 
 }  // namespace

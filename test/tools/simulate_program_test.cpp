@@ -187,6 +187,20 @@ TEST(SimulateProgram, commandsMoveTheSwashplateFromTheirTimeOn) {
   EXPECT_NEAR(a.number(300, "swashplate.collective [rad]"), 0.17, 1e-9) << "the trim value";
 }
 
+TEST(SimulateProgram, commandsBeyondTheTravelAreClampedWithAWarning) {
+  const TestFolder folder;
+  const std::string far = folder.write("far.csv", "time,collective,lateral_cyclic,longitudinal_cyclic\n0,1.0,0,-0.5\n");
+  const std::string stop = folder.write("stop.csv", "time,collective,lateral_cyclic,longitudinal_cyclic\n0,0.349,0,-0.1745\n");
+  const Finished clamped = simulate({kControlled, "--revolutions", "1", "--commands", far, "--json"});
+  const Finished allowed = simulate({kControlled, "--revolutions", "1", "--commands", stop, "--json"});
+  ASSERT_EQ(clamped.status, 0) << clamped.err;
+  EXPECT_TRUE(mentions(clamped.err, "swashplate.collective of 1 rows clamped to the travel [-0.0524, 0.349] rad")) << clamped.err;
+  EXPECT_TRUE(mentions(clamped.err, "swashplate.longitudinal_cyclic of 1 rows clamped")) << clamped.err;
+  EXPECT_FALSE(mentions(allowed.err, "clamped")) << allowed.err;
+  const auto hash = [](const std::string& json) { return json.substr(json.find("state_hash")); };
+  EXPECT_EQ(hash(clamped.out), hash(allowed.out));
+}
+
 TEST(SimulateProgram, commandsNeedASwashplate) {
   const TestFolder folder;
   const std::string commands = folder.write("c.csv", "time,collective,lateral_cyclic,longitudinal_cyclic\n0,0,0,0\n");

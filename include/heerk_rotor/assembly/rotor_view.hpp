@@ -20,7 +20,7 @@ struct RotorReading {
   double azimuth = 0.0;       // unwrapped hub angle [rad]
   double rotor_speed = 0.0;   // of the hub [rad/s]
   using PerBlade = std::array<double, kMaxBlades>;
-  PerBlade lag{}, lag_rate{}, flap{}, flap_rate{}, pitch{}, tip_twist{};   // [rad], [rad/s]; lead, up, nose up positive
+  PerBlade lag{}, lag_rate{}, flap{}, flap_rate{}, pitch{}, pitch_rate{}, tip_twist{};  // [rad], [rad/s]; lead, up, nose up positive
   double lag_collective = 0, lag_cosine = 0, lag_sine = 0;                 // multiblade coordinates [rad]
   double flap_collective = 0, flap_cosine = 0, flap_sine = 0;
   std::array<double, 3> hub_force{}, hub_moment{};                         // rotor on fuselage, in hub_link [N], [N m]
@@ -34,8 +34,8 @@ struct RotorReading {
 };
 
 /// Finds the quantities of a RotorReading in any coupled system, by output port name whatever subsystem offers them:
-///   azimuth, rotor_speed, lag, lag_rate, flap, flap_rate, pitch, tip_twist (one entry per blade), hub_force (3),
-///   hub_moment (3), fuselage_position (3), fuselage_velocity (3), fuselage_orientation (4), fuselage_rates (3),
+///   azimuth, rotor_speed, lag, lag_rate, flap, flap_rate, pitch, pitch_rate, tip_twist (one entry per blade),
+///   hub_force (3), hub_moment (3), fuselage_position (3), fuselage_velocity (3), fuselage_orientation (4), fuselage_rates (3),
 ///   thrust_coefficient, torque_coefficient, power_coefficient, advance_ratio, inflow (any size),
 /// and the commands *.collective, *.lateral_cyclic, *.longitudinal_cyclic. What is absent stays zero (orientation: identity).
 class RotorView {
@@ -50,17 +50,16 @@ class RotorView {
   Index lateralCyclicCommand() const { return lateral_cyclic_; }
   Index longitudinalCyclicCommand() const { return longitudinal_cyclic_; }
 
-  /// Allocation free; `previous` counters give the per-step differences.
-  void read(const Sample& sample, RotorReading& reading) noexcept;
+  /// Allocation free.
+  void read(const Sample& sample, RotorReading& reading) const noexcept;
 
  private:
   struct Range { Index begin = -1, size = 0; };
-  Range azimuth_, rotor_speed_, lag_, lag_rate_, flap_, flap_rate_, pitch_, tip_twist_, hub_force_, hub_moment_,
+  Range azimuth_, rotor_speed_, lag_, lag_rate_, flap_, flap_rate_, pitch_, pitch_rate_, tip_twist_, hub_force_, hub_moment_,
       position_, velocity_, orientation_, rates_, thrust_coefficient_, torque_coefficient_, power_coefficient_,
       advance_ratio_, inflow_;
   Index collective_ = -1, lateral_cyclic_ = -1, longitudinal_cyclic_ = -1;
   int blades_ = 0;
-  std::uint64_t last_iterations_ = 0, last_evaluations_ = 0;
 };
 
 }  // namespace heerk_rotor

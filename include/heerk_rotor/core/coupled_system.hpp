@@ -68,6 +68,9 @@ class CoupledSystem {
   /// Names of the entries of w ("swashplate.collective", ...), their units, and their defaults.
   const std::vector<std::string>& commandNames() const { return command_names_; }
   const Vector& defaultCommand() const { return default_command_; }
+  /// Range of each command, infinite where the model states none; models clamp beyond it.
+  const Vector& commandLow() const { return command_low_; }
+  const Vector& commandHigh() const { return command_high_; }
 
   /// x at t0: declared initial values, then each model's completeInitialState in order.
   Vector initialState() const;
@@ -89,7 +92,7 @@ class CoupledSystem {
   std::vector<Signal> signals_;
   Vector declared_initial_;
   std::vector<std::string> command_names_;
-  Vector default_command_;
+  Vector default_command_, command_low_, command_high_;
   Index x_size_ = 0, u_size_ = 0, y_size_ = 0;
 };
 

@@ -23,6 +23,7 @@ struct InputPort {
   Unconnected unconnected = Unconnected::kError;
   std::vector<double> default_value = {};       // (size), empty = zeros
   std::vector<std::string> entries = {};        // names of the entries; empty = <name>_1, <name>_2, ...
+  std::vector<double> low = {}, high = {};      // (size) range of a command, beyond which the model clamps; empty = unlimited
 };
 
 /// A named group of outputs. `feedthrough` names the input ports whose present value reaches this port at once.
@@ -75,6 +76,10 @@ class SubsystemModel {
 
   /// jacobian(i, j) = d y_i / d u_j (port size x input size, column-major) when the model knows it; false: differenced.
   virtual bool outputJacobian(Index port, double t, const In& x, const In& u, Eigen::Map<Matrix> jacobian) noexcept;
+
+  /// Initial values that models of the same role have as states and this one has not: accepted without effect, so that
+  /// one line of the configuration swaps the models.
+  virtual std::vector<std::string> ignoredInitialValues() const { return {}; }
 
   /// Called once at t0 with the inputs that other models' initial states already determine (no feedthrough); lets a
   /// model derive its initial state from what the user gave (x holds the given initial values).

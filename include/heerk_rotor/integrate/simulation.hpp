@@ -18,7 +18,9 @@ struct Sample {
   const Vector& x;
   const Vector& w;
   const Vector& y;
-  const SolverCounters& counters;
+  const SolverCounters& counters;       // since construction
+  std::uint64_t newton_iterations;      // spent since the previous instant: the rest of its step and this instant's outputs
+  std::uint64_t residual_evaluations;
 };
 
 class Observer {
@@ -57,6 +59,7 @@ class Simulation {
   ~Simulation();
 
   void addObserver(Observer& observer) { observers_.push_back(&observer); }
+  void removeObserver(Observer& observer);
 
   /// One step with the command w (size commandSize(); finite). On failure the state stays at the last good instant.
   StepStatus step(const Vector& command) noexcept;
@@ -105,6 +108,7 @@ class Simulation {
  private:
   bool solveStage(double t, const Vector& x, const Vector& w) noexcept;
   bool stateIsFinite(const Vector& x, double t) noexcept;
+  bool outputsAreFinite() noexcept;
   void combine(int row, Vector& result) const noexcept;
 
   CoupledSystem system_;
@@ -119,6 +123,7 @@ class Simulation {
   Vector x0_, x_, stage_, next_, w_;
   std::vector<double> initial_cache_;
   std::vector<double> remainders_;                               // (stages x state size), one row per stage
+  SolverCounters at_last_instant_;                               // what the solver had spent when the last step left its first stage
   bool solved_ = false;                                          // outputs at t_n with w_ are up to date
   StepStatus status_ = StepStatus::kOk;
   double failure_time_ = 0.0;

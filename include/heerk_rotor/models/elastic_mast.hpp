@@ -45,6 +45,7 @@ class RigidMast : public SubsystemModel {
   RigidMast(double rotor_speed, const MastLoad& load) : rotor_speed_(rotor_speed), load_(load) {}
 
   std::vector<State> states() const override { return {}; }
+  std::vector<std::string> ignoredInitialValues() const override { return {"twist", "twist_rate"}; }
   std::vector<InputPort> inputs() const override;
   std::vector<OutputPort> outputs() const override;
   void evalOutput(Index port, double t, const In& x, const In& u, Out y) noexcept override;

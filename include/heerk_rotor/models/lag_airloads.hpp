@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "heerk_rotor/core/subsystem_model.hpp"
+#include "heerk_rotor/models/hub_motion.hpp"
 
 namespace heerk_rotor {
 
@@ -30,7 +30,7 @@ class LagAirloads : public SubsystemModel {
     double hinge_offset = 0.2;   // a, of the rotor [m]
     double rotor_speed = 41.0;   // Omega [rad/s]
   };
-  static constexpr int kBlades = 4;
+  static constexpr int kBlades = kLagBlades;
 
   explicit LagAirloads(const Parameters& parameters);
 

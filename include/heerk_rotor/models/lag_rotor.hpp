@@ -14,7 +14,8 @@ namespace heerk_rotor {
 /// and what the hub feels of the blades (the mast closes the loop: J alpha = -mast torque + R):
 ///   R = -S_h sum phi_i'' + sum(M_i + a F_i) [+ 2 a b m_b omega sum phi_i phi_i' + b m_b sum phi_i (x'' c_i + y'' s_i)]
 /// The bracket is dropped in the paper although rows of the same order keep such terms (`second_order_hub_terms`):
-/// without it a steady lag angle phi_0 makes the mast mode grow or decay falsely at about 1/2 kappa.. (see docs).
+/// without it a steady lag angle phi_0 makes the mast mode grow (leading) or decay (lagging) falsely, at about
+/// 23 omega phi_0 for the paper's rotor (docs/lag_rotor.md).
 ///
 /// Formulations: `printed` has phi_i as states. `absolute_lag` has chi_i = phi_i + g twist instead, so that alpha leaves
 /// the blade equation; then R (with phi_i'' replaced by chi_i'' + g psi_drive'') does not depend on alpha, the algebraic

@@ -2,6 +2,7 @@
 #include <array>
 
 #include "heerk_rotor/config/section.hpp"
+#include "heerk_rotor/models/hub_motion.hpp"
 
 namespace heerk_rotor {
 
@@ -12,8 +13,6 @@ enum class LagFormulation {
   kPrinted,      // the paper's: blade angles relative to the hub; the mast spring's stiffness reaches them through an output
   kAbsoluteLag   // blade angles relative to the drive: all mast stiffness sits in one 2x2 block of S
 };
-
-constexpr int kLagBlades = 4;
 
 /// Parameters of the lag rotor; defaults are Table 6 of the HEERK paper (frequencies read as rad/s).
 struct LagRotorParameters {

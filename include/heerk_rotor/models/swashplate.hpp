@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "heerk_rotor/core/subsystem_model.hpp"
+#include "heerk_rotor/models/hub_motion.hpp"
 
 namespace heerk_rotor {
 
@@ -26,7 +26,7 @@ class Swashplate : public SubsystemModel {
     double cyclic_limit = 0.1745;                  // both cyclics, either sign [rad], 10 deg
     std::array<double, 3> trim{};                  // command until one arrives, and initial position [rad]
   };
-  static constexpr int kBlades = 4;
+  static constexpr int kBlades = kLagBlades;
 
   explicit Swashplate(const Parameters& parameters) : p_(parameters) {}
 

@@ -1,6 +1,5 @@
 #pragma once
 #include <cstdint>
-#include <iosfwd>
 #include <memory>
 #include <string>
 #include <vector>
@@ -64,7 +63,6 @@ class AlgebraicSolver {
   const SolverCounters& counters() const;
   const std::vector<std::uint64_t>& outputEvaluations() const;  // per subsystem: calls of evalOutput
   const std::vector<LoopInfo>& loops() const;
-  SolverOptions& options();
 
   /// Everything the next solve depends on (start values, Jacobians), for bitwise equal continuation.
   std::vector<double> cache() const;
