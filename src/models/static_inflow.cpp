@@ -1,0 +1,30 @@
+#include "heerk_rotor/models/static_inflow.hpp"
+
+#include <cmath>
+
+#include "heerk_rotor/models/inflow_ports.hpp"
+
+namespace heerk_rotor {
+
+std::vector<InputPort> UniformInflow::inputs() const { return inflowInputs(); }
+std::vector<OutputPort> UniformInflow::outputs() const { return inflowOutputs({"rotor_loads", "hub_flow"}); }
+
+void UniformInflow::evalOutput(Index, double, const In&, const In& u, Out y) noexcept {
+  y << glauertInflow(kappa_ * u[kThrustCoefficient], std::hypot(u[kMuForward], u[kMuLeft]), u[kMuUp]), 0.0, 0.0;
+}
+
+std::vector<InputPort> DreesInflow::inputs() const { return inflowInputs(); }
+std::vector<OutputPort> DreesInflow::outputs() const { return inflowOutputs({"rotor_loads", "hub_flow"}); }
+
+void DreesInflow::evalOutput(Index, double, const In&, const In& u, Out y) noexcept {
+  const WindAxes wind(u[kMuForward], u[kMuLeft]);
+  const double mean = glauertInflow(kappa_ * u[kThrustCoefficient], wind.mu, u[kMuUp]);
+  const double through = u[kMuUp] + mean;
+  // (1 - cos chi) / sin chi = tan(chi / 2) and mu / sin chi = V: no division by sin chi, which vanishes in hover.
+  const double total = std::hypot(wind.mu, through);
+  const double cosine_wind = mean * 4.0 / 3.0 * (halfSkewTangent(wind.mu, through) - 1.8 * wind.mu * total);
+  y[0] = mean;
+  wind.toHub(-2.0 * wind.mu * mean, cosine_wind, y[1], y[2]);
+}
+
+}  // namespace heerk_rotor
