@@ -1,5 +1,6 @@
 #include "heerk_rotor/lcm/lcm_bridge.hpp"
 
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 
@@ -10,7 +11,7 @@ namespace heerk_rotor {
 using std::chrono::milliseconds;
 
 LcmBridge::LcmBridge(const std::string& url, RotorRing& ring, std::int64_t stamp_base, CommandHandler handler)
-    : lcm_(url), ring_(ring), stamp_base_(stamp_base), handler_(std::move(handler)) {
+    : url_(url), lcm_(url), ring_(ring), stamp_base_(stamp_base), handler_(std::move(handler)) {
   if (!lcm_.good())
     throw LcmError("LCM cannot open " + url + " (on a machine without default route: ip link set lo up; ip route add 224.0.0.0/4 dev lo)");
   if (!handler_) return;
@@ -49,7 +50,18 @@ void LcmBridge::send() {
 }
 
 void LcmBridge::receive() {
-  while (!stop_) lcm_.handleTimeout(50);
+  while (!stop_) {
+    errno = 0;
+    receive_failing_ = lcm_.handleTimeout(50) < 0 && errno != EINTR;
+    if (!receive_failing_) continue;
+    ++receive_errors_;
+    std::this_thread::sleep_for(milliseconds(50));  // a provider that is broken fails at once: do not spin
+  }
+}
+
+std::string LcmBridge::problem() const {
+  if (!receive_failing_) return "";
+  return "LCM cannot receive commands from " + url_ + " any more (" + std::to_string(receive_errors_) + " attempts failed)";
 }
 
 void LcmBridge::onCommand(const lcm::ReceiveBuffer*, const std::string&, const swashplate_command_t* command, LcmBridge* self) {

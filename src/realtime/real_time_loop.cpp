@@ -179,8 +179,9 @@ bool RealTimeLoop::unpause() {
   });
 }
 
-bool RealTimeLoop::recover() {
-  return call([this] {
+bool RealTimeLoop::recover(const std::function<void()>& mend) {
+  return call([&] {
+    mend();
     if (mode() != Mode::kFailed) return;
     if (mode_before_failure_ == Mode::kPaused) budget_ = 0;
     mode_.store(mode_before_failure_, std::memory_order_release);

@@ -45,13 +45,8 @@ double CommandInput::age() const {
   return arrival == 0 ? -1.0 : 1e-9 * static_cast<double>(MonotonicClock().now() - arrival);
 }
 
-/// ROS's own throttle counts ROS time, which stands still with a paused /clock.
 void CommandInput::warn(const std::string& text, Verdict verdict) {
-  const SteadyTime now = std::chrono::steady_clock::now();
-  SteadyTime& last = last_warning_[static_cast<int>(verdict)];
-  if (last != SteadyTime() && now - last < std::chrono::seconds(1)) return;
-  last = now;
-  ROS_WARN_STREAM(text);
+  if (throttles_[static_cast<int>(verdict)].pass()) ROS_WARN_STREAM(text);
 }
 
 }  // namespace heerk_rotor

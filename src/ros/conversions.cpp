@@ -109,7 +109,7 @@ void toJointState(const RotorReading& reading, const ros::Time& stamp, sensor_ms
   message.velocity.assign({reading.rotor_speed});
   for (int k = 0; k < reading.blades; ++k) {
     message.position.insert(message.position.end(), {reading.flap[k], reading.lag[k], reading.pitch[k]});
-    message.velocity.insert(message.velocity.end(), {reading.flap_rate[k], reading.lag_rate[k], 0.0});
+    message.velocity.insert(message.velocity.end(), {reading.flap_rate[k], reading.lag_rate[k], reading.pitch_rate[k]});
   }
 }
 

@@ -15,7 +15,8 @@ struct PerBladeColumn {
 };
 constexpr PerBladeColumn kPerBlade[] = {{"lag", "rad", &RotorReading::lag},     {"lag_rate", "rad/s", &RotorReading::lag_rate},
                                         {"flap", "rad", &RotorReading::flap},   {"flap_rate", "rad/s", &RotorReading::flap_rate},
-                                        {"pitch", "rad", &RotorReading::pitch}, {"tip_twist", "rad", &RotorReading::tip_twist}};
+                                        {"pitch", "rad", &RotorReading::pitch}, {"pitch_rate", "rad/s", &RotorReading::pitch_rate},
+                                        {"tip_twist", "rad", &RotorReading::tip_twist}};
 
 struct VectorColumn {
   const char* name;

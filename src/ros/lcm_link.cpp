@@ -48,7 +48,7 @@ void LcmLink::connect(RotorTask& task, RotorDiagnostics& diagnostics, bool lossl
   if (impl_->bridge) {
     task.addRing(*impl_->live_ring, static_cast<std::uint64_t>(impl_->every));
     LcmBridge* bridge = impl_->bridge.get();
-    diagnostics.addReader({"LCM", [bridge] { return bridge->published(); }, impl_->live_ring.get()});
+    diagnostics.addReader({"LCM", [bridge] { return bridge->published(); }, impl_->live_ring.get(), [bridge] { return bridge->problem(); }});
   }
   if (impl_->recorder) {
     if (lossless) task.addLosslessRing(*impl_->log_ring, stop);

@@ -114,7 +114,6 @@ NodeParameters readNodeParameters(const XmlRpcValue& values, std::vector<std::st
   Reader reader(values);
   NodeParameters p;
   p.lcm_url = NodeParameters::kDefaultLcmUrl;
-  p.failure_file = defaultFailureFile();
 
   reader.word("config", p.config);
   if (p.config.empty()) reader.add("~config is missing: expected the absolute path of a configuration file (config/*.yaml of this package)");
@@ -136,6 +135,7 @@ NodeParameters readNodeParameters(const XmlRpcValue& values, std::vector<std::st
   reader.integer("lock_step", p.lock_step, 0, kMany);
   reader.number("duration", p.duration, " [s] (0 = endless)");
   reader.word("failure_file", p.failure_file);
+  if (p.failure_file.empty()) p.failure_file = defaultFailureFile();
   reader.has("diagnostic_period");  // read by diagnostic_updater
 
   warnings = reader.unknown();

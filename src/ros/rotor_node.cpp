@@ -6,6 +6,8 @@
 #include <exception>
 #include <sstream>
 
+#include <std_msgs/Float64.h>
+
 #include "heerk_rotor/assembly/build_simulation.hpp"
 #include "heerk_rotor/config/simulation_settings.hpp"
 #include "heerk_rotor/ros/failure_report.hpp"
@@ -51,6 +53,7 @@ RotorNode::RotorNode(const NodeParameters& parameters)
       geometry_(readRotorGeometry(configuration_)),
       stamps_(chooseStampBase(parameters.publish_clock)),
       input_(readCommandLimits(configuration_, simulation_->system(), view_), parameters.lock_step > 0, [this] { loop_.wake(); }),
+      speed_(simulation_->system()),
       task_(*simulation_, view_, input_, taskOptions()),
       loop_(task_, clock_, {simulation_->stepSize(), parameters.real_time_factor, parameters.steps_per_wake, parameters.priority}),
       state_ring_(ringCapacity(kReaderSeconds, parameters.publish_every)),
@@ -63,6 +66,7 @@ RotorNode::RotorNode(const NodeParameters& parameters)
   const LcmLink::Sizes sizes{ringCapacity(kReaderSeconds, parameters_.lcm_every), ringCapacity(kRecorderSeconds, 1), recorded * steps_per_second};
   lcm_ = std::make_unique<LcmLink>(parameters_, sizes, stamps_, view_.hasSwashplate() ? &input_ : nullptr, [this] { return loop_.timing().overruns(); });
 
+  task_.setSpeedInput(speed_);
   task_.addRing(state_ring_, static_cast<std::uint64_t>(parameters_.publish_every));
   diagnostics_.addReader({"ROS", [this] { return state_publisher_.published(); }, &state_ring_});
   lcm_->connect(task_, diagnostics_, parameters_.real_time_factor == 0.0, loop_.stopRequested());
@@ -87,18 +91,22 @@ std::size_t RotorNode::ringCapacity(double seconds, int every) const {
 }
 
 void RotorNode::subscribeToCommands() {
+  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+  if (speed_.present()) {
+    const auto onSpeed = [this](const std_msgs::Float64::ConstPtr& speed) { speed_.accept(speed->data); };
+    subscribers_.push_back(node_.subscribe<std_msgs::Float64>("rotor/speed_command", 1, onSpeed, ros::VoidConstPtr(), hints));
+  }
   if (!view_.hasSwashplate()) {
     ROS_INFO("the configuration has no swashplate: commands are not subscribed to");
     return;
   }
   const std::uint32_t queue = parameters_.lock_step > 0 ? 64 : 1;  // run freely, only the newest command matters
-  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   const auto onCommand = [this](const SwashplateCommand::ConstPtr& c) {
     input_.accept(std::array<double, 3>{c->collective, c->lateral_cyclic, c->longitudinal_cyclic}, CommandSource::kRos);
   };
   const auto onArray = [this](const std_msgs::Float64MultiArray::ConstPtr& array) { input_.accept(array->data, CommandSource::kRosArray); };
-  subscribers_ = {node_.subscribe<SwashplateCommand>("rotor/swashplate_command", queue, onCommand, ros::VoidConstPtr(), hints),
-                  node_.subscribe<std_msgs::Float64MultiArray>("rotor/swashplate_array", queue, onArray, ros::VoidConstPtr(), hints)};
+  subscribers_.push_back(node_.subscribe<SwashplateCommand>("rotor/swashplate_command", queue, onCommand, ros::VoidConstPtr(), hints));
+  subscribers_.push_back(node_.subscribe<std_msgs::Float64MultiArray>("rotor/swashplate_array", queue, onArray, ros::VoidConstPtr(), hints));
 }
 
 void RotorNode::start() {
@@ -162,7 +170,7 @@ void RotorNode::stop() {
   // From here on nothing new enters the rings; the readers finish what is in them.
   state_publisher_.stop();
   view_publisher_.stop();
-  if (lcm_) lcm_->stop();
+  lcm_->stop();
 }
 
 int RotorNode::exitStatus() {

@@ -41,12 +41,11 @@ bool RotorServices::pause(Empty::Request&, Empty::Response&) {
 bool RotorServices::unpause(Empty::Request&, Empty::Response&) { return loop_.unpause(); }
 
 bool RotorServices::reset(Empty::Request&, Empty::Response&) {
-  const bool done = loop_.call([this] {
+  return loop_.recover([this] {
     simulation_.reset();
-    task_.forgetCommand();
+    task_.startOver();
     task_.showPresent();
   });
-  return done && loop_.recover();
 }
 
 std::string RotorServices::failureText() const {
@@ -102,13 +101,12 @@ bool RotorServices::load(LoadSnapshot::Request& request, LoadSnapshot::Response&
     response.message = notAbsolute(request.path);
     if (!response.message.empty()) return true;
     const Snapshot snapshot = loadSnapshot(request.path);
-    if (!loop_.call([&] {
-          simulation_.restore(snapshot.checkpoint, true);
-          task_.resumeCommand(snapshot.checkpoint.w);
-          task_.showPresent();
-        }))
-      throw std::runtime_error(kEnded);
-    loop_.recover();
+    const bool alive = loop_.recover([&] {
+      simulation_.restore(snapshot.checkpoint, true);
+      task_.resume(snapshot.checkpoint.w);
+      task_.showPresent();
+    });
+    if (!alive) throw std::runtime_error(kEnded);
     response.success = true;
     if (snapshot.configuration != configuration_) {
       response.message = "the snapshot was made with another configuration: its state goes on with the present one";

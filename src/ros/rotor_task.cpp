@@ -15,7 +15,7 @@ double nonFinite(const Values& values) noexcept {
 
 bool isFinite(const RotorReading& r) noexcept {
   double sum = 0.0;
-  for (const RotorReading::PerBlade* values : {&r.lag, &r.lag_rate, &r.flap, &r.flap_rate, &r.pitch, &r.tip_twist}) sum += nonFinite(*values);
+  for (const RotorReading::PerBlade* values : {&r.lag, &r.lag_rate, &r.flap, &r.flap_rate, &r.pitch, &r.pitch_rate, &r.tip_twist}) sum += nonFinite(*values);
   for (const auto* values : {&r.hub_force, &r.hub_moment, &r.position, &r.velocity, &r.angular_velocity}) sum += nonFinite(*values);
   sum += nonFinite(r.orientation) + nonFinite(r.inflow);
   sum += nonFinite(std::array<double, 6>{r.azimuth, r.rotor_speed, r.thrust_coefficient, r.torque_coefficient, r.power_coefficient, r.advance_ratio});
@@ -41,11 +41,19 @@ void RotorTask::apply(const Command& command) noexcept {
 }
 
 void RotorTask::useDefault(CommandSource source) noexcept {
-  w_ = simulation_.system().defaultCommand();
+  const Vector& standard = simulation_.system().defaultCommand();
+  for (const Index entry : {view_.collectiveCommand(), view_.lateralCyclicCommand(), view_.longitudinalCyclicCommand()})
+    if (entry >= 0) w_[entry] = standard[entry];
   source_in_effect_ = source;
 }
 
+void RotorTask::latchSpeed() noexcept {
+  double speed;
+  if (speed_ != nullptr && speed_->take(speed)) w_[speed_->entry()] = speed;
+}
+
 void RotorTask::latchCommand() noexcept {
+  latchSpeed();
   if (input_.take(command_)) apply(command_);
   if (options_.timeout_policy == TimeoutPolicy::kHold || options_.command_timeout == 0.0 || command_.source == CommandSource::kNone) return;
   if (1e-9 * static_cast<double>(clock_.now() - command_.arrival) <= options_.command_timeout) return;
@@ -57,6 +65,7 @@ bool RotorTask::ready() noexcept {
   if (options_.lock_step == 0 || granted_ > 0) return true;
   if (!input_.take(command_)) return false;
   apply(command_);
+  latchSpeed();
   granted_ = options_.lock_step;
   return true;
 }
@@ -72,10 +81,19 @@ StepTask::Result RotorTask::step() noexcept {
   return finished ? Result::kFinished : Result::kOk;
 }
 
-void RotorTask::showPresent() noexcept { simulation_.observe(w_); }
+void RotorTask::showPresent() noexcept {
+  to_everyone_ = true;
+  simulation_.observe(w_);
+  to_everyone_ = false;
+}
 
 void RotorTask::observe(const Sample& sample) noexcept {
-  if (shown_ && sample.step == instant_.reading.step && sample.epoch == instant_.reading.epoch) return;  // by showPresent()
+  const bool shown = shown_ && sample.step == instant_.reading.step && sample.epoch == instant_.reading.epoch;
+  if (!shown) take(sample);
+  if (!output_not_finite_) handOut();
+}
+
+void RotorTask::take(const Sample& sample) noexcept {
   view_.read(sample, instant_.reading);
   instant_.source = source_in_effect_.load(std::memory_order_relaxed);
   shown_ = true;
@@ -83,28 +101,38 @@ void RotorTask::observe(const Sample& sample) noexcept {
     output_not_finite_ = true;
     return;
   }
-  for (const Reader& reader : readers_) {
-    if (sample.step % reader.every != 0) continue;
-    if (reader.stop != nullptr) reader.ring->pushWaiting(instant_, *reader.stop);
-    else reader.ring->push(instant_);
-  }
+  for (Reader& reader : readers_) reader.served = false;
   newest_.write(instant_);
   if (!history_.empty()) history_[history_count_++ % history_.size()] = instant_;
 }
 
-void RotorTask::forgetCommand() {
+void RotorTask::handOut() noexcept {
+  for (Reader& reader : readers_) {
+    if (reader.served || (!to_everyone_ && instant_.reading.step % reader.every != 0)) continue;
+    reader.served = true;
+    if (reader.stop != nullptr) reader.ring->pushWaiting(instant_, *reader.stop);
+    else reader.ring->push(instant_);
+  }
+}
+
+void RotorTask::startOver() {
   Command stale;
   while (input_.take(stale)) {
   }
+  double stale_speed;
+  if (speed_ != nullptr) speed_->take(stale_speed);
   command_ = Command();
   granted_ = 0;
   output_not_finite_ = false;
-  useDefault(CommandSource::kNone);
+  history_count_ = 0;  // of another epoch: a failure to come has not grown out of it
+  w_ = simulation_.system().defaultCommand();
+  source_in_effect_ = CommandSource::kNone;
 }
 
-void RotorTask::resumeCommand(const Vector& command) {
-  forgetCommand();
+void RotorTask::resume(const Vector& command) {
+  startOver();
   w_ = command;
+  source_in_effect_ = CommandSource::kSnapshot;
 }
 
 std::vector<RotorInstant> RotorTask::history() const {

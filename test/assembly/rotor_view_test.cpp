@@ -61,7 +61,7 @@ RotorReading readOnce(const CoupledSystem& system, const Vector& y, const Vector
   const Vector x;
   const SolverCounters counters;
   RotorReading reading;
-  view.read({7, 2, 0.5, x, w, y, counters}, reading);
+  view.read({7, 2, 0.5, x, w, y, counters, 0, 0}, reading);
   return reading;
 }
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <vector>
 
@@ -82,6 +83,29 @@ TEST(LcmBridge, handsCommandsOnUnchanged) {
   EXPECT_EQ(received[0].collective, 0.11);
   EXPECT_EQ(received[0].lateral_cyclic, -0.02);
   EXPECT_TRUE(std::isnan(received[0].longitudinal_cyclic));
+}
+
+/// The library fails at once on every attempt to read beyond the end of an event log.
+TEST(LcmBridge, aProviderThatFailsIsAProblemAndTriedAgainWithoutSpinning) {
+  const std::string file = (std::filesystem::temp_directory_path() / ("heerk_rotor_commands_" + std::to_string(getpid()) + ".lcm")).string();
+  swashplate_command_t command{};
+  {
+    lcm::LCM writer("file://" + file + "?mode=w");
+    ASSERT_EQ(writer.publish(LcmBridge::kCommandChannel, &command), 0);
+  }
+  RotorRing ring(4);
+  const auto begin = std::chrono::steady_clock::now();
+  LcmBridge bridge("file://" + file + "?speed=0", ring, 0, [](const swashplate_command_t&) {});
+  EXPECT_EQ(bridge.problem(), "");
+  bridge.start();
+  while (bridge.receiveErrors() < 5 && std::chrono::steady_clock::now() < begin + std::chrono::seconds(10)) std::this_thread::yield();
+  EXPECT_GE(bridge.receiveErrors(), 5u);
+  EXPECT_NE(bridge.problem().find("LCM cannot receive commands from file://" + file), std::string::npos) << bridge.problem();
+  bridge.stop();
+  EXPECT_EQ(bridge.received(), 1u);
+  const auto elapsed = std::chrono::steady_clock::now() - begin;
+  EXPECT_LE(bridge.receiveErrors(), 1u + static_cast<std::uint64_t>(elapsed / std::chrono::milliseconds(50)));
+  std::filesystem::remove(file);
 }
 
 TEST(LcmBridge, saysWhichUrlCannotBeOpened) {

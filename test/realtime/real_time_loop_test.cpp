@@ -206,8 +206,7 @@ TEST_F(LiveLoop, aFailedStepStopsItButCallsGoOn) {
   EXPECT_TRUE(eventually([&] { return loop.mode() == RealTimeLoop::Mode::kFailed; }));
   EXPECT_EQ(count(), 50u);
   EXPECT_FALSE(loop.step(1));
-  EXPECT_TRUE(loop.call([&] { task.count = 0, task.fail_at = 0; }));
-  EXPECT_TRUE(loop.recover());
+  EXPECT_TRUE(loop.recover([&] { task.count = 0, task.fail_at = 0; }));
   EXPECT_TRUE(eventually([&] { return count() > 100; }));
 }
 
@@ -216,10 +215,41 @@ TEST_F(LiveLoop, aStepRequestThatFailsSaysSoAndRecoveryStaysPaused) {
   loop.start(true);
   EXPECT_FALSE(loop.step(10));
   EXPECT_EQ(loop.mode(), RealTimeLoop::Mode::kFailed);
-  EXPECT_TRUE(loop.call([&] { task.fail_at = 0; }));
-  EXPECT_TRUE(loop.recover());
+  EXPECT_TRUE(loop.recover([&] { task.fail_at = 0; }));
   EXPECT_EQ(loop.mode(), RealTimeLoop::Mode::kPaused);
   EXPECT_EQ(count(), 3u);
+}
+
+TEST_F(LiveLoop, nobodySeesAMendedTaskInAFailedLoop) {
+  task.fail_at = 1;
+  loop.start();
+  std::atomic<bool> done{false};
+  std::uint64_t looks = 0, contradictions = 0;  // changed on the loop's thread only
+  std::thread onlooker([&] {
+    while (!done)
+      loop.call([&] {
+        ++looks;
+        if (loop.mode() == RealTimeLoop::Mode::kFailed && task.count != task.fail_at) ++contradictions;
+      });
+  });
+  for (int k = 0; k < 300; ++k) {
+    ASSERT_TRUE(eventually([&] { return loop.mode() == RealTimeLoop::Mode::kFailed; }));
+    ASSERT_TRUE(loop.recover([&] { task.fail_at = task.count + 3; }));
+  }
+  done = true;
+  onlooker.join();
+  EXPECT_GT(looks, 0u);
+  EXPECT_EQ(contradictions, 0u);
+}
+
+TEST_F(LiveLoop, aMendingThatThrowsLeavesItFailed) {
+  task.fail_at = 5;
+  loop.start();
+  EXPECT_TRUE(eventually([&] { return loop.mode() == RealTimeLoop::Mode::kFailed; }));
+  EXPECT_THROW(loop.recover([] { throw std::runtime_error("does not fit"); }), std::runtime_error);
+  EXPECT_EQ(loop.mode(), RealTimeLoop::Mode::kFailed);
+  loop.stop();
+  EXPECT_FALSE(loop.recover([] {}));
 }
 
 TEST_F(LiveLoop, waitsForATaskThatIsNotReady) {

@@ -17,7 +17,7 @@ RotorReading distinctReading() {
   r.azimuth = 700.5;
   r.rotor_speed = 41.5;
   double next = 1.0;
-  for (RotorReading::PerBlade* values : {&r.lag, &r.lag_rate, &r.flap, &r.flap_rate, &r.pitch, &r.tip_twist})
+  for (RotorReading::PerBlade* values : {&r.lag, &r.lag_rate, &r.flap, &r.flap_rate, &r.pitch, &r.pitch_rate, &r.tip_twist})
     for (double& value : *values) value = next++;
   for (double* value : {&r.lag_collective, &r.lag_cosine, &r.lag_sine, &r.flap_collective, &r.flap_cosine, &r.flap_sine}) *value = next++;
   for (auto* values : {&r.hub_force, &r.hub_moment, &r.position, &r.velocity, &r.angular_velocity})
@@ -134,7 +134,9 @@ TEST(RosConversions, jointsAreNamedPerBladeAndFollowItsNumber) {
   EXPECT_EQ(joints.position[4], r.flap[1]);
   EXPECT_EQ(joints.position[5], r.lag[1]);
   EXPECT_EQ(joints.position[6], r.pitch[1]);
+  EXPECT_EQ(joints.velocity[4], r.flap_rate[1]);
   EXPECT_EQ(joints.velocity[5], r.lag_rate[1]);
+  EXPECT_EQ(joints.velocity[6], r.pitch_rate[1]);
   r.blades = 2;
   toJointState(r, kStamp, joints);  // the same message again
   EXPECT_EQ(joints.name.size(), 7u);

@@ -97,6 +97,15 @@ TEST(NodeParameters, reportEverythingWrongAtOnce) {
     EXPECT_NE(text.find(expected), std::string::npos) << "missing: " << expected << "\nin:\n" << text;
 }
 
+TEST(NodeParameters, anEmptyFailureFileIsTheDefaultOne) {
+  XmlRpcValue values = minimal();
+  std::vector<std::string> warnings;
+  const std::string standard = readNodeParameters(values, warnings).failure_file;
+  EXPECT_NE(standard.find("/heerk_rotor_failure.csv"), std::string::npos);
+  values["failure_file"] = "";
+  EXPECT_EQ(readNodeParameters(values, warnings).failure_file, standard);
+}
+
 TEST(NodeParameters, warnOfUnknownNamesWithTheNearest) {
   XmlRpcValue values = minimal();
   values["publish_evry"] = 2;

@@ -3,24 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
 #include "heerk_rotor/assembly/build_simulation.hpp"
 #include "heerk_rotor/ros/failure_report.hpp"
 #include "heerk_rotor/ros/rotor_geometry.hpp"
-
-// Every heap call of this program passes here; counted while a test wants it.
-namespace {
-thread_local bool counting = false;
-thread_local long heap_calls = 0;
-}  // namespace
-extern "C" void* __libc_malloc(std::size_t);
-extern "C" void* malloc(std::size_t size) {
-  heap_calls += counting;
-  return __libc_malloc(size);
-}
 
 namespace heerk_rotor {
 namespace {
@@ -61,26 +50,6 @@ TEST_F(Task, handsEveryNthStepToItsReaders) {
   }
   ASSERT_TRUE(task.newest().read(instant));
   EXPECT_EQ(instant.reading.step, 29u);
-}
-
-TEST_F(Task, stepsWithoutHeapCallsIncludingCommandsAndRings) {
-  RotorTask::Options o = options();
-  o.history = 361;
-  o.timeout_policy = TimeoutPolicy::kTrim;
-  RotorTask task(*simulation, view, input, o);
-  task.addRing(ring, 1);
-  for (int k = 0; k < 100; ++k) task.step();
-  input.accept(std::array<double, 3>{0.15, 0.01, -0.01}, CommandSource::kRos);
-  counting = true;
-  void* volatile probe = std::malloc(1);
-  const long seen = heap_calls;
-  heap_calls = 0;
-  for (int k = 0; k < 1000; ++k) task.step();
-  counting = false;
-  std::free(probe);
-  EXPECT_EQ(seen, 1);  // the counter works
-  EXPECT_EQ(heap_calls, 0);
-  EXPECT_EQ(drain().back().source, CommandSource::kRos);
 }
 
 TEST_F(Task, aCommandIsInEffectFromTheNextStepAndNamesItsSource) {
@@ -177,21 +146,128 @@ TEST_F(Task, inLockStepEachCommandIsWorthItsSteps) {
   }
 }
 
-TEST_F(Task, forgettingAndResumingACommand) {
+TEST_F(Task, aLockStepBatchEndsWithAnInstantForEveryReaderWhateverItsShare) {
+  CommandInput queue(limits, true, [] {});
+  RotorTask::Options o = options();
+  o.lock_step = 10;
+  RotorTask task(*simulation, view, queue, o);
+  RotorRing sparse(4096);
+  task.addRing(ring, 4);  // 10 is no multiple of 4
+  task.addRing(sparse, 1000);
+  for (int batch = 1; batch <= 3; ++batch) {
+    queue.accept(std::array<double, 3>{0.1 + 0.01 * batch, 0.0, 0.0}, CommandSource::kRos);
+    while (task.ready()) ASSERT_EQ(task.step(), Result::kOk);
+    const auto all = drain();
+    ASSERT_FALSE(all.empty());
+    EXPECT_EQ(all.back().reading.step, 10u * static_cast<unsigned>(batch));
+    EXPECT_EQ(all.back().reading.collective, 0.1 + 0.01 * batch);
+  }
+  // The multiples and the ends of the batches, each once.
+  std::vector<std::uint64_t> steps;
+  while (sparse.pop(instant)) steps.push_back(instant.reading.step);
+  EXPECT_EQ(steps, (std::vector<std::uint64_t>{0, 10, 20, 30}));
+}
+
+TEST_F(Task, aSparseReaderGetsAnInstantThatOnlyOthersHaveSeenOnceItIsAskedFor) {
+  RotorTask task(*simulation, view, input, options());
+  RotorRing sparse(8);
+  task.addRing(ring, 1);
+  task.addRing(sparse, 1000);
+  ASSERT_EQ(task.step(), Result::kOk);
+  simulation->observe(simulation->system().defaultCommand());  // step 1, as a step that then fails in a later stage does
+  EXPECT_EQ(ring.size(), 2u);
+  EXPECT_EQ(sparse.size(), 1u);
+  task.showPresent();
+  task.showPresent();
+  EXPECT_EQ(ring.size(), 2u);
+  ASSERT_EQ(sparse.size(), 2u);
+  ASSERT_TRUE(sparse.pop(instant));
+  ASSERT_TRUE(sparse.pop(instant));
+  EXPECT_EQ(instant.reading.step, 1u);
+}
+
+TEST_F(Task, theSpeedCommandIsLatchedHeldAndOutlivesASwashplateTimeout) {
+  SpeedInput speed(simulation->system());
+  ASSERT_TRUE(speed.present());
+  RotorTask::Options o = options();
+  o.command_timeout = 1e-9;
+  o.timeout_policy = TimeoutPolicy::kTrim;
+  RotorTask task(*simulation, view, input, o);
+  task.setSpeedInput(speed);
+  double in_effect = 0.0;
+  struct Watch : Observer {
+    Index entry;
+    double& value;
+    Watch(Index e, double& v) : entry(e), value(v) {}
+    void observe(const Sample& sample) noexcept override { value = sample.w[entry]; }
+  } watch(speed.entry(), in_effect);
+  simulation->addObserver(watch);
+  const double standard = simulation->system().defaultCommand()[speed.entry()];
+  task.step();
+  EXPECT_EQ(in_effect, standard);
+  EXPECT_TRUE(speed.accept(44.0));
+  input.accept(std::array<double, 3>{0.1, 0.0, 0.0}, CommandSource::kRos);  // too old at once
+  task.step();
+  EXPECT_EQ(task.source(), CommandSource::kTimeout);
+  EXPECT_EQ(in_effect, 44.0);
+  EXPECT_FALSE(speed.accept(NAN));
+  EXPECT_FALSE(speed.accept(HUGE_VAL));
+  task.step();
+  EXPECT_EQ(in_effect, 44.0);
+  EXPECT_TRUE(speed.accept(1000.0));
+  task.step();
+  EXPECT_EQ(in_effect, 49.2);  // the drive's max_speed
+  EXPECT_TRUE(speed.accept(-1.0));
+  task.step();
+  EXPECT_EQ(in_effect, 20.5);
+  speed.accept(43.0);  // not taken before the reset: stale
+  simulation->reset();
+  task.startOver();
+  task.step();
+  EXPECT_EQ(in_effect, standard);
+}
+
+TEST_F(Task, startingOverAndResuming) {
   RotorTask task(*simulation, view, input, options());
   input.accept(std::array<double, 3>{0.1, 0.0, 0.0}, CommandSource::kRos);
   task.step();
-  task.forgetCommand();
+  task.startOver();
   task.step();
   ASSERT_TRUE(task.newest().read(instant));
   EXPECT_EQ(instant.reading.collective, 0.17);
   EXPECT_EQ(instant.source, CommandSource::kNone);
   Vector w = simulation->system().defaultCommand();
   w[view.collectiveCommand()] = 0.08;
-  task.resumeCommand(w);
+  task.resume(w);
   task.step();
   ASSERT_TRUE(task.newest().read(instant));
   EXPECT_EQ(instant.reading.collective, 0.08);
+  EXPECT_EQ(instant.source, CommandSource::kSnapshot);
+  EXPECT_STREQ(name(instant.source), "snapshot");
+  input.accept(std::array<double, 3>{0.1, 0.0, 0.0}, CommandSource::kRos);
+  task.step();
+  ASSERT_TRUE(task.newest().read(instant));
+  EXPECT_EQ(instant.source, CommandSource::kRos);
+}
+
+TEST_F(Task, theHistoryBeginsAnewWithAResetAndALoadedState) {
+  RotorTask::Options o = options();
+  o.history = 20;
+  RotorTask task(*simulation, view, input, o);
+  for (int k = 0; k < 50; ++k) task.step();
+  const auto checkpoint = simulation->checkpoint();
+  simulation->reset();
+  task.startOver();
+  EXPECT_TRUE(task.history().empty());
+  for (int k = 0; k < 3; ++k) task.step();
+  ASSERT_EQ(task.history().size(), 3u);
+  EXPECT_EQ(task.history().front().reading.epoch, 1u);
+  simulation->restore(checkpoint, true);
+  task.resume(checkpoint.w);
+  EXPECT_TRUE(task.history().empty());
+  task.step();
+  ASSERT_EQ(task.history().size(), 1u);
+  EXPECT_EQ(task.history().front().reading.epoch, 2u);
 }
 
 TEST_F(Task, theHistoryHoldsTheLastInstantsAndItsFileHasOneRowEach) {

@@ -40,12 +40,16 @@ class LcmBridge {
   std::uint64_t published() const { return published_; }
   std::uint64_t failed() const { return failed_; }      // refused by the provider
   std::uint64_t received() const { return received_; }  // commands
+  std::uint64_t receiveErrors() const { return receive_errors_; }
+  /// What keeps commands from arriving now; empty: nothing. Receiving is tried again all the same.
+  std::string problem() const;
 
  private:
   void send();
   void receive();
   static void onCommand(const lcm::ReceiveBuffer*, const std::string&, const swashplate_command_t* command, LcmBridge* self);
 
+  const std::string url_;
   lcm::LCM lcm_;
   RotorRing& ring_;
   std::int64_t stamp_base_;  // [ns]
@@ -53,7 +57,8 @@ class LcmBridge {
   std::function<std::uint64_t()> overruns_ = [] { return std::uint64_t{0}; };
   std::thread sender_, receiver_;
   std::atomic<bool> stop_{false};
-  std::atomic<std::uint64_t> published_{0}, failed_{0}, received_{0};
+  std::atomic<bool> receive_failing_{false};
+  std::atomic<std::uint64_t> published_{0}, failed_{0}, received_{0}, receive_errors_{0};
 };
 
 }  // namespace heerk_rotor

@@ -59,8 +59,9 @@ class RealTimeLoop {
   // The following are calls; false: the loop has ended.
   bool pause();
   bool unpause();
-  /// Clears a failure (after the task was mended, e.g. reset); the mode before it comes back.
-  bool recover();
+  /// Runs `mend` (a reset, say) and clears a failure, in one go: nobody sees a mended task in a loop that still calls itself
+  /// failed. The mode before the failure comes back. What `mend` throws is passed on and the failure stays.
+  bool recover(const std::function<void()>& mend);
   /// While paused: n more steps at the usual pace. Returns when they are made (true), or when that will not happen: the loop
   /// was not paused, a step failed, somebody paused or unpaused meanwhile, or the loop ended (false).
   bool step(std::uint64_t n);

@@ -6,8 +6,9 @@
 
 namespace heerk_rotor {
 
-/// Where the command in effect came from; kTimeout: the last one became too old and the default took its place.
-enum class CommandSource : std::uint8_t { kNone, kRos, kRosArray, kLcm, kTimeout };
+/// Where the swashplate command in effect came from; kNone: none has come, the default is in effect; kTimeout: the last one
+/// became too old and the default took its place; kSnapshot: loaded with the state.
+enum class CommandSource : std::uint8_t { kNone, kRos, kRosArray, kLcm, kTimeout, kSnapshot };
 
 constexpr const char* name(CommandSource source) {
   switch (source) {
@@ -15,6 +16,7 @@ constexpr const char* name(CommandSource source) {
     case CommandSource::kRosArray: return "ros_array";
     case CommandSource::kLcm: return "lcm";
     case CommandSource::kTimeout: return "timeout";
+    case CommandSource::kSnapshot: return "snapshot";
     case CommandSource::kNone: break;
   }
   return "none";

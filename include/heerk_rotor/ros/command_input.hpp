@@ -1,11 +1,11 @@
 #pragma once
 #include <atomic>
-#include <chrono>
 #include <functional>
 #include <mutex>
 
 #include "heerk_rotor/realtime/latest_value.hpp"
 #include "heerk_rotor/ros/command_gate.hpp"
+#include "heerk_rotor/ros/warning_throttle.hpp"
 
 namespace heerk_rotor {
 
@@ -35,7 +35,6 @@ class CommandInput {
 
  private:
   static constexpr std::size_t kQueue = 64;
-  using SteadyTime = std::chrono::steady_clock::time_point;
   void warn(const std::string& text, CheckedCommand::Verdict verdict);
 
   const CommandLimits limits_;
@@ -44,7 +43,7 @@ class CommandInput {
   std::mutex writers_;  // ROS and LCM threads among themselves; the step thread never takes it
   LatestValue<Command> latest_;
   SnapshotRing<Command> queue_{kQueue};
-  SteadyTime last_warning_[3] = {};
+  WarningThrottle throttles_[3];  // one per verdict
   std::atomic<std::uint64_t> accepted_{0}, clamped_{0}, refused_{0};
   std::atomic<CommandSource> last_source_{CommandSource::kNone};
   std::atomic<std::int64_t> last_arrival_{0};

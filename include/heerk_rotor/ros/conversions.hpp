@@ -18,7 +18,7 @@ namespace heerk_rotor {
 
 /// What a RotorState says beyond the reading itself.
 struct PublisherNote {
-  std::string command_source = "none";  // none, ros, ros_array, lcm, timeout (simulate: file)
+  std::string command_source = "none";  // none, ros, ros_array, lcm, timeout, snapshot (simulate: file)
   std::uint64_t overruns = 0;           // steps that missed their deadline since the start
   std::uint64_t dropped = 0;            // instants this publisher's ring lost since the start
 };
@@ -46,7 +46,7 @@ void toOdometry(const RotorReading& reading, const ros::Time& stamp, nav_msgs::O
 void toTransform(const RotorReading& reading, const ros::Time& stamp, geometry_msgs::TransformStamped& message);
 
 /// rotor_joint (position = azimuth, unwrapped), then blade_k_flap_joint, blade_k_lag_joint, blade_k_pitch_joint for
-/// k = 1..N. The pitch rate is not part of a reading: its velocity entry is zero.
+/// k = 1..N.
 void toJointState(const RotorReading& reading, const ros::Time& stamp, sensor_msgs::JointState& message);
 
 }  // namespace heerk_rotor

@@ -29,7 +29,7 @@ struct NodeParameters {
   int priority = 80;                    // SCHED_FIFO priority of the step thread; 0 = normal scheduling
   int lock_step = 0;                    // n: advance n steps per received command; 0 = run freely
   double duration = 0.0;                // end the node after this much simulated time [s]; 0 = endless
-  std::string failure_file;             // the revolution before a failed step goes here; default: heerk_rotor_failure.csv in $ROS_HOME or ~/.ros
+  std::string failure_file;             // the revolution before a failed step goes here; empty: heerk_rotor_failure.csv in $ROS_HOME or ~/.ros
 
   static constexpr const char* kDefaultLcmUrl = "udpm://239.255.76.67:7667?ttl=0";
 };

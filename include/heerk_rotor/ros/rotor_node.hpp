@@ -17,6 +17,7 @@
 #include "heerk_rotor/ros/rotor_geometry.hpp"
 #include "heerk_rotor/ros/rotor_services.hpp"
 #include "heerk_rotor/ros/rotor_task.hpp"
+#include "heerk_rotor/ros/speed_input.hpp"
 #include "heerk_rotor/ros/state_publisher.hpp"
 #include "heerk_rotor/ros/view_publisher.hpp"
 
@@ -56,6 +57,7 @@ class RotorNode {
   ros::NodeHandle node_, private_node_{"~"};
 
   CommandInput input_;
+  SpeedInput speed_;
   RotorTask task_;
   MonotonicClock clock_;
   RealTimeLoop loop_;
@@ -64,7 +66,7 @@ class RotorNode {
   ViewPublisher view_publisher_;
   RotorServices services_;
   RotorDiagnostics diagnostics_;
-  std::unique_ptr<LcmLink> lcm_;  // nullptr: built without LCM
+  std::unique_ptr<LcmLink> lcm_;  // set at the end of construction, in a build without LCM as well
   std::vector<ros::Subscriber> subscribers_;
   ros::AsyncSpinner spinner_{2};  // ~step waits for its steps; the other services answer meanwhile
 

@@ -10,6 +10,7 @@
 #include "heerk_rotor/realtime/rotor_instant.hpp"
 #include "heerk_rotor/ros/command_input.hpp"
 #include "heerk_rotor/ros/node_parameters.hpp"
+#include "heerk_rotor/ros/speed_input.hpp"
 
 namespace heerk_rotor {
 
@@ -33,19 +34,23 @@ class RotorTask : public StepTask, public Observer {
   void addRing(RotorRing& ring, std::uint64_t every);
   void addLosslessRing(RotorRing& ring, const std::atomic<bool>& stop);
 
+  /// Commands for the rotor speed, latched together with the swashplate command. Must outlive the task. Before the run.
+  void setSpeedInput(SpeedInput& speed) { speed_ = speed.present() ? &speed : nullptr; }
+
   Result step() noexcept override;
   bool ready() noexcept override;
   void observe(const Sample& sample) noexcept override;
 
-  /// Shows the present instant to the readers, once, without stepping: after a pause, a reset, a batch of steps.
+  /// Shows the present instant to all readers without stepping, also to those that get every n-th step only, once: where the
+  /// simulation stops to wait (a pause, a reset, the end of a batch), a controller must see what it is to answer.
   void showPresent() noexcept;
 
-  /// The default command from now on, until another one arrives.
-  void forgetCommand();
-  /// The command of a loaded snapshot from now on, until another one arrives.
-  void resumeCommand(const Vector& command);
+  /// After a reset: the default command until another one arrives, no history.
+  void startOver();
+  /// After a snapshot was loaded: its command (all of w) until another one arrives, no history.
+  void resume(const Vector& command);
 
-  /// Instants before the present one, oldest first, up to one per kept step.
+  /// Instants of this epoch before the present one, oldest first, up to one per kept step.
   std::vector<RotorInstant> history() const;
   /// Why the last step failed, in words.
   std::string failureText() const;
@@ -61,14 +66,20 @@ class RotorTask : public StepTask, public Observer {
     RotorRing* ring;
     std::uint64_t every;
     const std::atomic<bool>* stop;  // lossless when set
+    bool served = false;            // with instant_
   };
   void apply(const Command& command) noexcept;
   void latchCommand() noexcept;
+  void latchSpeed() noexcept;
+  /// The swashplate's default; the speed command stays.
   void useDefault(CommandSource source) noexcept;
+  void take(const Sample& sample) noexcept;
+  void handOut() noexcept;
 
   Simulation& simulation_;
   RotorView& view_;
   CommandInput& input_;
+  SpeedInput* speed_ = nullptr;      // nullptr: no drive takes the speed
   const Options options_;
   MonotonicClock clock_;
   std::vector<Reader> readers_;
@@ -77,6 +88,7 @@ class RotorTask : public StepTask, public Observer {
   Command command_;                  // last one taken
   RotorInstant instant_;             // last one shown
   bool shown_ = false;               // instant_ holds something
+  bool to_everyone_ = false;         // showPresent() is at work
   bool output_not_finite_ = false;
   std::uint64_t granted_ = 0;        // steps left of the present command in lock step
   std::vector<RotorInstant> history_;

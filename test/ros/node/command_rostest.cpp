@@ -1,4 +1,5 @@
 // Swashplate commands over ROS and LCM: effect on the rotor, refusal, clamping, ageing.
+#include <std_msgs/Float64.h>
 #include <std_msgs/Float64MultiArray.h>
 
 #include <cmath>
@@ -180,6 +181,41 @@ TEST_F(Commands, overLcmTheyCountLikewiseAndTheLatestArrivalWins) {
   EXPECT_EQ(states.last().collective, 0.14);
   ASSERT_EQ(lcm.publish(LcmBridge::kCommandChannel, &command), 0);
   ASSERT_TRUE(states.waitForLast([](const RotorState& s) { return s.command_source == "lcm"; }));
+}
+
+TEST_F(Commands, theRotorSpeedFollowsItsCommandWithinTheDrivesRange) {
+  ros::Publisher speed = handle.advertise<std_msgs::Float64>("rotor/speed_command", 1);
+  const auto sendSpeed = [&](double value) {
+    std_msgs::Float64 message;
+    message.data = value;
+    speed.publish(message);
+  };
+  node.set("publish_every", 4).set("command_timeout", 0.05).set("timeout_policy", std::string("trim"));
+  node.start();
+  ASSERT_TRUE(states.waitForSize(10)) << node.output();
+  ASSERT_TRUE(eventually([&] { return speed.getNumSubscribers() == 1 && publisher.getNumSubscribers() == 1; }));
+  sendSpeed(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_TRUE(eventually([&] { return node.says("speed command refused: nan rad/s, expected [20.5, 49.2]"); })) << node.output();
+  EXPECT_NEAR(states.last().rotor_speed, 41.0, 0.01);
+  sendSpeed(42.0);
+  // A swashplate command that times out does not take the speed along.
+  send(0.17, 0.0, 0.0);
+  ASSERT_TRUE(states.waitForLast([](const RotorState& s) { return s.command_source == "timeout"; }));
+  ASSERT_TRUE(states.waitForLast([](const RotorState& s) { return s.rotor_speed > 41.95; }, 20.0)) << states.last().rotor_speed;
+  const double reached = states.last().sim_time;
+  ASSERT_TRUE(states.waitForLast([&](const RotorState& s) { return s.sim_time > reached + 1.5; }, 20.0));
+  double previous = 41.0;
+  for (const RotorState& s : states.messages()) {
+    // The drive's acceleration is limited to 2 rad/s^2, on top of which the mast swings: no jump between messages (1.7 ms).
+    ASSERT_NEAR(s.rotor_speed, previous, 0.05);
+    previous = s.rotor_speed;
+    if (s.sim_time > reached + 0.5) {
+      ASSERT_NEAR(s.rotor_speed, 42.0, 0.1);  // held, without a time-out of its own
+    }
+  }
+  sendSpeed(1000.0);
+  EXPECT_TRUE(eventually([&] { return node.says("speed command clamped: 1000 rad/s, expected [20.5, 49.2]"); })) << node.output();
+  EXPECT_TRUE(states.waitForLast([](const RotorState& s) { return s.rotor_speed > 43.0; }, 20.0));
 }
 
 TEST_F(Commands, withoutASwashplateTheyAreNotSubscribedTo) {

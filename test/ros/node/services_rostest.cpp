@@ -115,6 +115,7 @@ TEST_F(Services, aLoadedSnapshotContinuesBitByBitInANewEpoch) {
   for (std::size_t i = 0; i < kSteps; ++i) {
     const RotorState &a = first[i], &b = second[i + 1];
     EXPECT_EQ(b.epoch, a.epoch + 1);
+    EXPECT_EQ(b.command_source, "snapshot");
     EXPECT_EQ(b.step, a.step + kSteps);
     ASSERT_EQ(b.azimuth, a.azimuth);
     ASSERT_EQ(b.lag, a.lag);

@@ -1,0 +1,99 @@
+// The complete step path - loop, command input, simulation, rings, timing - never touches the heap.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <thread>
+
+#include "heerk_rotor/assembly/build_simulation.hpp"
+#include "heerk_rotor/realtime/real_time_loop.hpp"
+#include "heerk_rotor/ros/rotor_geometry.hpp"
+#include "heerk_rotor/ros/rotor_task.hpp"
+#include "models/allocation_counter.hpp"
+
+namespace heerk_rotor {
+namespace {
+
+/// Sleeping is free: a paced run that takes no longer than its computations.
+struct EagerClock : Clock {
+  MonotonicClock real;
+  std::int64_t slept = 0;
+  std::int64_t now() noexcept override { return real.now() + slept; }
+  void sleepUntil(std::int64_t until) noexcept override {
+    if (const std::int64_t wait = until - now(); wait > 0) slept += wait;
+  }
+};
+
+TEST(StepPath, makesNoHeapCallInAHundredThousandPacedStepsWithCommandsArriving) {
+  if (!test::heapIsCounted()) GTEST_SKIP() << "the heap cannot be counted here";
+  constexpr std::uint64_t kSteps = 100000;
+  const Configuration configuration = Configuration::load(HEERK_SOURCE_DIR "/config/lag_rotor_controlled.yaml");
+  const std::unique_ptr<Simulation> simulation = buildSimulation(configuration);
+  RotorView view(simulation->system());
+  RealTimeLoop* waking = nullptr;
+  CommandInput input(readCommandLimits(configuration, simulation->system(), view), false, [&] { waking->wake(); });
+  SpeedInput speed(simulation->system());
+  ASSERT_TRUE(speed.present());
+  RotorTask::Options options;
+  options.history = 361;
+  options.timeout_policy = TimeoutPolicy::kTrim;
+  options.command_timeout = 0.005;  // time-outs happen as well
+  options.last_step = kSteps;
+  RotorTask task(*simulation, view, input, options);
+  task.setSpeedInput(speed);
+  RotorRing every(1024), fourth(1024), log(1024);
+  EagerClock clock;
+  RealTimeLoop loop(task, clock, {simulation->stepSize(), 1.0, 1, 0});
+  waking = &loop;
+  task.addRing(every, 1);
+  task.addRing(fourth, 4);
+  task.addLosslessRing(log, loop.stopRequested());
+
+  // All that surrounds the step thread in the node; their own heap calls do not count.
+  std::atomic<bool> done{false};
+  std::atomic<std::uint64_t> logged{0}, requests{0};
+  std::thread reader([&] {
+    RotorInstant instant;
+    while (!done || log.size() > 0) {
+      if (log.popWaiting(instant, std::chrono::milliseconds(5))) ++logged;
+      while (every.pop(instant)) {
+      }
+      while (fourth.pop(instant)) {
+      }
+      task.newest().read(instant);
+    }
+  });
+  std::thread controller([&] {
+    for (int k = 0; !done; ++k) {
+      input.accept(std::array<double, 3>{0.17 + 0.01 * std::sin(0.1 * k), 0.001, -0.001}, k % 2 == 0 ? CommandSource::kRos : CommandSource::kLcm);
+      speed.accept(41.0 + 0.5 * std::sin(0.05 * k));
+      if (logged > 0 && !loop.ended() && loop.call([] {})) ++requests;  // as the diagnostics do
+      std::this_thread::sleep_for(std::chrono::milliseconds(k % 10 == 0 ? 20 : 1));  // the pause lets a command time out
+    }
+  });
+
+  std::uint64_t calls = 0, seen = 0;
+  {
+    test::HeapCalls heap;
+    void* volatile probe = std::malloc(1);
+    seen = heap.count();
+    loop.run();
+    calls = heap.count() - seen;
+    std::free(probe);
+  }
+  done = true;
+  reader.join();
+  controller.join();
+  EXPECT_EQ(seen, 1u);  // the counter works
+  EXPECT_EQ(calls, 0u);
+  EXPECT_EQ(loop.mode(), RealTimeLoop::Mode::kFinished) << task.failureText();
+  EXPECT_EQ(loop.timing().report().steps, kSteps);
+  EXPECT_EQ(loop.timing().report().lateness.total(), kSteps);
+  EXPECT_EQ(logged, kSteps + 1);  // and the end
+  EXPECT_GT(input.accepted(), 20u);
+  EXPECT_GT(requests, 20u);
+}
+
+}  // namespace
+}  // namespace heerk_rotor
