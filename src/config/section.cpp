@@ -41,7 +41,7 @@ double placeholder(const Range& range) {
   return range.low_open ? range.low + 1.0 : range.low;
 }
 
-std::string list(const std::vector<std::string>& names) {
+std::string enumeration(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
   return text;
@@ -99,6 +99,15 @@ std::vector<double> Section::numbers(const std::string& key, std::size_t size, d
   return result;
 }
 
+std::vector<double> Section::list(const std::string& key, const std::vector<double>& fallback, const std::string& unit, Range range) {
+  const YAML::Node value = lookup(key);
+  if (!value.IsDefined()) return fallback;
+  if (value.IsSequence() && value.size() > 0) return numbers(key, value.size(), 0.0, unit, range);
+  if (value.IsScalar()) return {number(key, fallback.empty() ? 0.0 : fallback.front(), unit, range)};
+  problem(key, describe(range, unit) + ", or a list of such numbers");
+  return fallback;
+}
+
 long Section::integer(const std::string& key, long fallback, long low, long high) {
   const YAML::Node value = lookup(key);
   long result = fallback;
@@ -120,12 +129,12 @@ std::string Section::word(const std::string& key, const std::string& fallback, c
   const YAML::Node value = lookup(key);
   if (!value.IsDefined()) return fallback;
   if (!value.IsScalar() || value.Scalar().empty()) {
-    problem(key, allowed.empty() ? "a word" : "one of " + list(allowed));
+    problem(key, allowed.empty() ? "a word" : "one of " + enumeration(allowed));
     return fallback;
   }
   const std::string& word = value.Scalar();
   if (allowed.empty() || std::find(allowed.begin(), allowed.end(), word) != allowed.end()) return word;
-  problem(key, "one of " + list(allowed) + didYouMean(word, allowed));
+  problem(key, "one of " + enumeration(allowed) + didYouMean(word, allowed));
   return fallback;
 }
 
@@ -151,7 +160,7 @@ void Section::finish() {
     const std::string& key = entry.first.Scalar();
     if (std::find(known_.begin(), known_.end(), key) == known_.end()) unknown.push_back(key);
   }
-  const std::string nothing_known = known_.empty() ? "no key here" : "one of the keys " + list(known_);
+  const std::string nothing_known = known_.empty() ? "no key here" : "one of the keys " + enumeration(known_);
   for (const std::string& key : unknown) {
     const std::string nearest = didYouMean(key, known_);
     problem(key, nearest.empty() ? nothing_known : "a known key" + nearest);

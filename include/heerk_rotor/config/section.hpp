@@ -35,6 +35,8 @@ class Section {
   double requiredNumber(const std::string& key, const std::string& unit, Range range = anyNumber());
   /// A list of `size` numbers, or one number for all of them.
   std::vector<double> numbers(const std::string& key, std::size_t size, double fallback, const std::string& unit, Range range = anyNumber());
+  /// A list of any length of at least one number; a single number is a list of one.
+  std::vector<double> list(const std::string& key, const std::vector<double>& fallback, const std::string& unit, Range range = anyNumber());
   long integer(const std::string& key, long fallback, long low, long high);
   bool flag(const std::string& key, bool fallback);
   std::string word(const std::string& key, const std::string& fallback, const std::vector<std::string>& allowed = {});

@@ -1,0 +1,12 @@
+#pragma once
+#include <memory>
+
+#include "heerk_rotor/models/registry.hpp"
+
+namespace heerk_rotor {
+
+/// One function per registered type: reads the section, records problems, returns the model (nullptr only with a problem). Each stands at the
+/// end of its model's source file, so that parameters, their keys and their ranges are found together.
+using Made = std::unique_ptr<SubsystemModel>;
+
+}  // namespace heerk_rotor
