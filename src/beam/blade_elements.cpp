@@ -15,15 +15,15 @@ constexpr int kGaussPoints = 7;
 
 /// The integrals of one element (or of one point mass).
 struct ElementIntegrals {
-  ElementMatrix M, K0, P, G;
+  ElementMatrix M, K0, P, G, T0, E_v, E_w;
   PitchHarmonics<ElementMatrix> K1;
   PitchHarmonics<ElementVector> steady;
-  ElementVector inertia_v, inertia_w, inertia_rv, inertia_rw, inertia_twist, steady_x;
+  ElementVector inertia_v, inertia_w, inertia_rv, inertia_rw, inertia_twist, inertia_u, steady_x;
 
   ElementIntegrals() {
-    for (ElementMatrix* A : {&M, &K0, &P, &G, &K1.constant, &K1.cos1, &K1.sin1, &K1.cos2, &K1.sin2}) A->setZero();
+    for (ElementMatrix* A : {&M, &K0, &P, &G, &T0, &E_v, &E_w, &K1.constant, &K1.cos1, &K1.sin1, &K1.cos2, &K1.sin2}) A->setZero();
     for (ElementVector* f : {&steady.constant, &steady.cos1, &steady.sin1, &steady.cos2, &steady.sin2, &inertia_v, &inertia_w,
-                             &inertia_rv, &inertia_rw, &inertia_twist, &steady_x})
+                             &inertia_rv, &inertia_rw, &inertia_twist, &inertia_u, &steady_x})
       f->setZero();
   }
 };
@@ -71,6 +71,12 @@ void addMass(ElementIntegrals& sum, BeamReal dm, BeamReal x, const BladeSection&
   // 2 m x e f (c w' - s v'): the radial force on the mass centre, which the pitch does not turn
   addTwice(sum.K1.constant, dm * x * e, n.twist, c * n.slope_w - s * n.slope_v);
 
+  // Second-order displacements of the mass centre: x by turning its offset with the slopes, y and z by turning it with the twist.
+  addTwice(sum.T0, dm * e, n.twist, c * n.slope_w - s * n.slope_v);
+  addSquare(sum.E_v, dm * e * c, n.twist);
+  addSquare(sum.E_w, dm * e * s, n.twist);
+  sum.inertia_u -= dm * e * (s * n.slope_w + c * n.slope_v);
+
   // Rotation about x: -m (y^2 + z^2), whose only products with f are those of the mass centre's offset.
   addSquare(sum.P, dm, n.v);
   addSquare(sum.P, dm, n.w);
@@ -97,8 +103,9 @@ void addMass(ElementIntegrals& sum, BeamReal dm, BeamReal x, const BladeSection&
   sum.inertia_twist += dm * ((km1_2 + km2_2) * n.twist + e * (c * n.w - s * n.v));
 }
 
-/// Adds elastic energy and the work of the tension t [kg m] over the length dx [m].
-void addElastic(ElementIntegrals& sum, BeamReal dx, BeamReal t, const BladeSection& section, const ElementShapes& n) {
+/// Adds elastic energy, the work of the tension t [kg m] over the length dx [m], and with the mass t0 [kg] outboard of it the
+/// foreshortening that this tension works on.
+void addElastic(ElementIntegrals& sum, BeamReal dx, BeamReal t, BeamReal t0, const BladeSection& section, const ElementShapes& n) {
   const BeamReal c = std::cos(section.twist), s = std::sin(section.twist);
   const BeamReal EI1 = section.EI_flap, EI2 = section.EI_lag, rate = section.twist_rate;
   addSquare(sum.K0, dx * (EI1 * c * c + EI2 * s * s), n.curvature_w);
@@ -108,12 +115,30 @@ void addElastic(ElementIntegrals& sum, BeamReal dx, BeamReal t, const BladeSecti
   addTwice(sum.K0, -dx * section.EB2 * rate, n.twist_rate, c * n.curvature_v + s * n.curvature_w);
 
   const BeamReal kA_2 = section.kA * section.kA;
-  addSquare(sum.K1.constant, dx * t, n.slope_v);
-  addSquare(sum.K1.constant, dx * t, n.slope_w);
-  addSquare(sum.K1.constant, dx * t * kA_2, n.twist_rate);
-  addTwice(sum.K1.constant, dx * t * section.eA, n.twist, s * n.curvature_v - c * n.curvature_w);
-  sum.steady.constant += dx * t * section.eA * (s * n.curvature_w + c * n.curvature_v);
-  sum.steady.constant -= dx * t * kA_2 * rate * n.twist_rate;
+  const auto addTension = [&](ElementMatrix& quadratic, ElementVector& linear, BeamReal tension) {
+    addSquare(quadratic, dx * tension, n.slope_v);
+    addSquare(quadratic, dx * tension, n.slope_w);
+    addSquare(quadratic, dx * tension * kA_2, n.twist_rate);
+    addTwice(quadratic, dx * tension * section.eA, n.twist, s * n.curvature_v - c * n.curvature_w);
+    linear += dx * tension * (section.eA * (s * n.curvature_w + c * n.curvature_v) - kA_2 * rate * n.twist_rate);
+  };
+  addTension(sum.K1.constant, sum.steady.constant, t);
+  addTension(sum.T0, sum.inertia_u, t0);
+}
+
+/// Adds the mass `dm` at x to the inertia of the undeformed blade.
+void addRigid(BladeMatrices& blade, BeamReal dm, BeamReal x, const BladeSection& section) {
+  const double m = static_cast<double>(dm), r = static_cast<double>(x);
+  const double c = static_cast<double>(std::cos(section.twist)), s = static_cast<double>(std::sin(section.twist));
+  const double e = static_cast<double>(section.e), flapwise = static_cast<double>(section.km1 * section.km1), chordwise = static_cast<double>(section.km2 * section.km2);
+  const double y2 = chordwise * c * c + flapwise * s * s, z2 = chordwise * s * s + flapwise * c * c, yz = (chordwise - flapwise) * s * c;
+  blade.mass += m;
+  blade.first_moment += m * Eigen::Vector3d(r, e * c, e * s);
+  Eigen::Matrix3d J;
+  J << y2 + z2, -r * e * c, -r * e * s,
+       -r * e * c, r * r + z2, -yz,
+       -r * e * s, -yz, r * r + y2;
+  blade.inertia += m * J;
 }
 
 /// Places element integrals into the blade's matrices.
@@ -121,12 +146,12 @@ class Assembly {
  public:
   explicit Assembly(BladeMatrices& blade) : blade_(blade) {
     const Eigen::Index n = std::count_if(blade.free_dof.begin(), blade.free_dof.end(), [](int row) { return row >= 0; });
-    for (BeamMatrix* A : {&blade.M, &blade.K0, &blade.P, &blade.G, &blade.C_hinge, &blade.K1.constant, &blade.K1.cos1, &blade.K1.sin1,
+    for (BeamMatrix* A : {&blade.M, &blade.K0, &blade.P, &blade.G, &blade.T0, &blade.E_v, &blade.E_w, &blade.C_hinge, &blade.K1.constant, &blade.K1.cos1, &blade.K1.sin1,
                           &blade.K1.cos2, &blade.K1.sin2})
       A->setZero(n, n);
     for (BeamVector* f : {&blade.steady.constant, &blade.steady.cos1, &blade.steady.sin1, &blade.steady.cos2, &blade.steady.sin2,
                           &blade.inertia_v, &blade.inertia_w, &blade.inertia_rv, &blade.inertia_rw, &blade.inertia_twist,
-                          &blade.steady_x})
+                          &blade.inertia_u, &blade.steady_x})
       f->setZero(n);
   }
 
@@ -145,7 +170,7 @@ class Assembly {
   /// a (r_i r_j) and a (r_j r_i) may differ in the last bit.
   void symmetrise() {
     for (BeamMatrix* A :
-         {&blade_.M, &blade_.K0, &blade_.P, &blade_.K1.constant, &blade_.K1.cos1, &blade_.K1.sin1, &blade_.K1.cos2, &blade_.K1.sin2})
+         {&blade_.M, &blade_.K0, &blade_.P, &blade_.T0, &blade_.E_v, &blade_.E_w, &blade_.K1.constant, &blade_.K1.cos1, &blade_.K1.sin1, &blade_.K1.cos2, &blade_.K1.sin2})
       *A = (BeamReal(0.5) * (*A + A->transpose())).eval();
   }
 
@@ -161,6 +186,7 @@ class Assembly {
     blade_.inertia_rv[row] += sum.inertia_rv[i];
     blade_.inertia_rw[row] += sum.inertia_rw[i];
     blade_.inertia_twist[row] += sum.inertia_twist[i];
+    blade_.inertia_u[row] += sum.inertia_u[i];
     blade_.steady_x[row] += sum.steady_x[i];
   }
 
@@ -169,6 +195,9 @@ class Assembly {
     blade_.K0(row, column) += sum.K0(i, j);
     blade_.P(row, column) += sum.P(i, j);
     blade_.G(row, column) += sum.G(i, j);
+    blade_.T0(row, column) += sum.T0(i, j);
+    blade_.E_v(row, column) += sum.E_v(i, j);
+    blade_.E_w(row, column) += sum.E_w(i, j);
     blade_.K1.constant(row, column) += sum.K1.constant(i, j);
     blade_.K1.cos1(row, column) += sum.K1.cos1(i, j);
     blade_.K1.sin1(row, column) += sum.K1.sin1(i, j);
@@ -235,12 +264,14 @@ BladeMatrices assembleBlade(const BladeProperties& p) {
         const BladeSection section = bladeSection(p, x);
         const ElementShapes shapes((x - left) / length, length);
         addMass(sum, section.mass * dx, x, section, p.root_lead, shapes);
-        addElastic(sum, dx, tension(x), section, shapes);
+        addElastic(sum, dx, tension(x), tension.massOutboard(x), section, shapes);
+        addRigid(blade, section.mass * dx, x, section);
       }
     }
     if (element == elements - 1 && p.tip_mass > 0) {
       BladeSection point = bladeSection(p, p.nodes.back());
       point.e = point.km1 = point.km2 = 0;  // on the elastic axis, without extension
+      addRigid(blade, p.tip_mass, p.nodes.back(), point);
       addMass(sum, p.tip_mass, p.nodes.back(), point, p.root_lead, ElementShapes(1, length));
     }
     assembly.add(element, sum);

@@ -203,19 +203,23 @@ BeamReal massMoment(BeamReal a, BeamReal b, BeamReal m_a, BeamReal m_b, int powe
 BladeTension::BladeTension(const BladeProperties& p) : breaks_(bladeBreaks(p)) {
   for (double r : breaks_) mass_.push_back(bladeSection(p, r).mass);
   from_here_.resize(breaks_.size());
+  mass_from_here_.resize(breaks_.size());
   from_here_.back() = static_cast<BeamReal>(p.tip_mass) * breaks_.back();
-  for (std::size_t i = breaks_.size() - 1; i-- > 0;)
+  mass_from_here_.back() = p.tip_mass;
+  for (std::size_t i = breaks_.size() - 1; i-- > 0;) {
     from_here_[i] = from_here_[i + 1] + massMoment(breaks_[i], breaks_[i + 1], mass_[i], mass_[i + 1], 1);
+    mass_from_here_[i] = mass_from_here_[i + 1] + massMoment(breaks_[i], breaks_[i + 1], mass_[i], mass_[i + 1], 0);
+  }
 }
 
-BeamReal BladeTension::operator()(BeamReal x) const {
-  if (x <= breaks_.front()) return from_here_.front();
-  if (x >= breaks_.back()) return from_here_.back();
+BeamReal BladeTension::outboard(BeamReal x, int power, const std::vector<BeamReal>& from_here) const {
+  if (x <= breaks_.front()) return from_here.front();
+  if (x >= breaks_.back()) return from_here.back();
   const std::size_t right = std::upper_bound(breaks_.begin(), breaks_.end(), x) - breaks_.begin();
   const BeamReal a = breaks_[right - 1];
   const BeamReal b = breaks_[right];
   const BeamReal mass = mass_[right - 1] + (mass_[right] - mass_[right - 1]) * (x - a) / (b - a);
-  return from_here_[right] + massMoment(x, b, mass, mass_[right], 1);
+  return from_here[right] + massMoment(x, b, mass, mass_[right], power);
 }
 
 BladeInertia bladeInertia(const BladeProperties& p) {

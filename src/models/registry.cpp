@@ -8,11 +8,10 @@
 #include "heerk_rotor/models/lag_rotor.hpp"
 #include "heerk_rotor/models/monolithic_lag_rotor.hpp"
 #include "heerk_rotor/models/swashplate.hpp"
+#include "model_factories.hpp"
 
 namespace heerk_rotor {
 namespace {
-
-using Made = std::unique_ptr<SubsystemModel>;
 
 /// A spring-mounted hub needs inertia of its own: without hinge offset or blade inertia, common lag motion balances the
 /// hub completely (kappa is infinite) and the coupled system is not index 1. Long before that its equations lose all
@@ -130,6 +129,7 @@ const std::vector<ModelType>& modelTypes() {
       {"drive", "drive train that follows a speed command", makeDrive},
       {"swashplate", "second-order actuators, collective and cyclic blade pitch", makeSwashplate},
       {"lag_airloads", "blade-element airloads with uniform inflow for the lag rotor", makeLagAirloads},
+      {"fe_rotor", "elastic rotor: flap, lag and torsion of the blades as finite elements (HEERK paper, Section 4)", makeFeRotor},
       {"monolithic_lag_rotor", "lag rotor and elastic mast as one equation (HEERK paper, A.2)", makeMonolithicLagRotor},
   };
   return types;

@@ -45,6 +45,15 @@ struct BladeMatrices {
   BeamVector inertia_rv;   // of r times 1 rad/s^2 along y: angular acceleration about z
   BeamVector inertia_rw;   // of r times 1 rad/s^2 along z
   BeamVector inertia_twist;  // of 1 rad/s^2 about x: int m (km1^2 + km2^2) phi and the mass-centre offset
+  BeamVector inertia_u;      // of 1 m/s^2 along x: displacements along the blade that are linear in the degrees of freedom
+
+  /// Second-order displacements of the mass: int m u = inertia_u' q - q' T0 q / 2 with foreshortening by slopes and twist, and
+  /// int m v = inertia_v' q - q' E_v q / 2, likewise w, from turning the mass-centre offset.
+  BeamMatrix T0, E_v, E_w;
+  /// The undeformed blade about the origin of its axes, without root lead.
+  double mass = 0.0;                                        // [kg]
+  Eigen::Vector3d first_moment = Eigen::Vector3d::Zero();   // int m r [kg m]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();        // int m (r^2 I - r r') [kg m^2]
 
   std::vector<double> nodes;  // [m]
   std::vector<int> free_dof;  // global number 5 * node + NodeDof -> row here, or -1 where held

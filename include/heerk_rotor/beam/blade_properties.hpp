@@ -65,12 +65,17 @@ class BladeTension {
  public:
   /// Expects properties without problems.
   explicit BladeTension(const BladeProperties& properties);
-  BeamReal operator()(BeamReal x) const;
+  BeamReal operator()(BeamReal x) const { return outboard(x, 1, from_here_); }
+  /// int_x^R m dr + tip mass [kg]: the tension of a unit acceleration along the blade.
+  BeamReal massOutboard(BeamReal x) const { return outboard(x, 0, mass_from_here_); }
 
  private:
-  std::vector<double> breaks_;       // [m]
-  std::vector<BeamReal> mass_;       // at the breaks [kg/m]
-  std::vector<BeamReal> from_here_;  // t at the breaks [kg m]
+  BeamReal outboard(BeamReal x, int power, const std::vector<BeamReal>& from_here) const;
+
+  std::vector<double> breaks_;            // [m]
+  std::vector<BeamReal> mass_;            // at the breaks [kg/m]
+  std::vector<BeamReal> from_here_;       // t at the breaks [kg m]
+  std::vector<BeamReal> mass_from_here_;  // [kg]
 };
 
 /// Rigid-body data about the centre of rotation, tip mass included.

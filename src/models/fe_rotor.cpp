@@ -1,0 +1,389 @@
+#include "heerk_rotor/models/fe_rotor.hpp"
+
+#include <cmath>
+
+#include "blade_dynamics.hpp"
+#include "heerk_rotor/aero/branch_free_math.hpp"
+#include "heerk_rotor/models/hub_motion.hpp"
+#include "model_factories.hpp"
+
+namespace heerk_rotor {
+namespace {
+
+constexpr double kTwoPi = 6.283185307179586476925;
+constexpr double kGravity = 9.80665;  // [m/s^2], of the mount that is taken when none is connected
+
+enum Output_ {
+  kSectionPosition, kSectionVelocity, kSectionAxes, kSectionPitch, kSectionPitchRate, kSectionAcceleration, kRotorForce, kTiltingMoment, kBladeReaction, kRootLoad,
+  kLag, kLagRate, kFlap, kFlapRate, kFlapAcceleration, kTipTwist, kMomentum, kAngularMomentum, kEnergy, kDissipation
+};
+
+std::vector<std::string> perBlade(const std::string& name, const std::vector<std::string>& components, int blades) {
+  std::vector<std::string> names;
+  for (int k = 1; k <= blades; ++k)
+    for (const std::string& component : components) names.push_back(name + "_" + component + "_" + std::to_string(k));
+  return names;
+}
+
+/// L: lanes, at least the number of blades.
+template <int L>
+class FeRotor : public SubsystemModel {
+  using Vec = LaneVector<L>;
+  using Vec3 = Lanes3<L>;
+
+ public:
+  explicit FeRotor(const FeRotorParameters& parameters) : p_(parameters), blades_(parameters.sections.blades), dynamics_(parameters) {
+    // Offsets of the inputs in u.
+    Index begin = 0;
+    for (const InputPort& port : inputs()) {
+      offsets_[port.name == "hub_motion" ? kHubMotion : port.name == "mount_velocity" ? kMountVelocity : port.name == "pitch" ? kPitch
+               : port.name == "pitch_rate" ? kPitchRate : port.name == "section_loads" ? kLoads : port.name == "hub_acceleration" ? kHubAcceleration
+               : port.name == "mount_acceleration" ? kMountAcceleration : port.name == "pitch_acceleration" ? kPitchAcceleration : kHubGravity] = begin;
+      begin += port.size;
+    }
+    for (int k = 0; k < L; ++k) {
+      const double angle = kTwoPi * (k < blades_ ? k : 0) / blades_;
+      blade_cosine_[k] = exactAtQuarters(std::cos(angle));
+      blade_sine_[k] = exactAtQuarters(std::sin(angle));
+    }
+    precone_sine_ = std::sin(parameters.precone);
+    precone_cosine_ = std::cos(parameters.precone);
+  }
+
+  std::vector<State> states() const override {
+    std::vector<State> list;
+    const auto& names = dynamics_.coefficients().state_names;
+    for (const std::string& name : names) list.push_back({name, "kg^0.5 m", "modal coordinate of mode and blade (mode shapes of unit modal mass)"});
+    for (const std::string& name : names) list.push_back({name.substr(0, name.find('_')) + "_rate" + name.substr(name.find('_')), "kg^0.5 m/s", "rate of the modal coordinate"});
+    return list;
+  }
+
+  std::vector<InputPort> inputs() const override {
+    const Index n = blades_;
+    return {hubMotionInput(),
+            {"mount_velocity", 6, "m/s, rad/s", "velocity of the hub and angular velocity of the mount, in hub_link", Unconnected::kDefault, {},
+             {"mount_velocity_x", "mount_velocity_y", "mount_velocity_z", "mount_rate_x", "mount_rate_y", "mount_rate_z"}},
+            {"pitch", n, "rad", "pitch of each blade, nose up positive", Unconnected::kDefault},
+            {"pitch_rate", n, "rad/s", "time derivative of the pitch", Unconnected::kDefault},
+            {"section_loads", p_.sections.portSize(4), "N, N m", "airloads of each section: force in rotating blade axes, pitching moment about the elastic axis, nose up",
+             Unconnected::kDefault, {}, sectionEntryNames("section_load", {"x", "y", "z", "pitching"}, p_.sections)},
+            {"hub_acceleration", 2, "rad/s^2", "angular acceleration of hub and drive relative to the mount", Unconnected::kDefault, {}, {"hub", "drive"}},
+            {"mount_acceleration", 6, "m/s^2, rad/s^2", "specific force at the hub (acceleration minus gravity) and angular acceleration of the mount, in hub_link",
+             Unconnected::kDefault, {0.0, 0.0, kGravity, 0.0, 0.0, 0.0},
+             {"specific_force_x", "specific_force_y", "specific_force_z", "mount_acceleration_x", "mount_acceleration_y", "mount_acceleration_z"}},
+            {"pitch_acceleration", n, "rad/s^2", "second time derivative of the pitch", Unconnected::kDefault},
+            {"hub_gravity", 3, "m/s^2", "gravity in hub_link", Unconnected::kDefault, {0.0, 0.0, -kGravity}, {"gravity_x", "gravity_y", "gravity_z"}}};
+  }
+
+  std::vector<OutputPort> outputs() const override {
+    const Index n = blades_;
+    const std::vector<std::string> shape{"pitch"}, motion{"hub_motion", "mount_velocity", "pitch", "pitch_rate"};
+    std::vector<std::string> dynamics = motion;
+    for (const char* port : {"section_loads", "hub_acceleration", "mount_acceleration", "pitch_acceleration"}) dynamics.push_back(port);
+    std::vector<std::string> acceleration = dynamics;
+    acceleration.push_back("hub_gravity");
+    const RotorSections& s = p_.sections;
+    const double tip_speed = p_.rotor_speed * s.radius;
+    return {{"section_position", s.portSize(3), "m", "elastic axis at each section, in rotating blade axes", shape, 1.0, sectionEntryNames("position", {"x", "y", "z"}, s)},
+            {"section_velocity", s.portSize(3), "m/s", "velocity of the elastic axis relative to the earth, in rotating blade axes", motion, tip_speed,
+             sectionEntryNames("velocity", {"x", "y", "z"}, s)},
+            {"section_axes", s.portSize(6), "-", "unpitched section axes, in rotating blade axes: t toward the leading edge, n normal upwards", shape, 1.0,
+             sectionEntryNames("axes", {"t_x", "t_y", "t_z", "n_x", "n_y", "n_z"}, s)},
+            {"section_pitch", s.portSize(1), "rad", "pitch of each section: control, built-in and elastic twist, nose up positive", shape, 0.1, sectionEntryNames("section_pitch", {""}, s)},
+            {"section_pitch_rate", s.portSize(1), "rad/s", "time derivative of section_pitch", {"pitch_rate"}, 1.0, sectionEntryNames("section_pitch_rate", {""}, s)},
+            {"section_acceleration", s.portSize(3), "m/s^2", "acceleration of the elastic axis relative to the earth, in rotating blade axes", acceleration, tip_speed * p_.rotor_speed,
+             sectionEntryNames("acceleration", {"x", "y", "z"}, s)},
+            {"rotor_force", 3, "N", "force of the rotor on the hub, in hub_link", dynamics, 1e4, {"rotor_force_x", "rotor_force_y", "rotor_force_z"}},
+            {"tilting_moment", 2, "N m", "rolling and pitching moment of the rotor on the hub, in hub_link", dynamics, 1e4, {"tilting_moment_x", "tilting_moment_y"}},
+            {"blade_reaction", 1, "N m", "moment of the blades on the hub about +z", dynamics, 1e4},
+            {"root_load", 6 * n, "N, N m", "force and moment of each blade on the hub about its centre, in rotating blade axes", dynamics, 1e4,
+             perBlade("root", {"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"}, blades_)},
+            {"lag", n, "rad", "in-plane displacement of each blade tip over R, lead positive", shape, 0.01, {}, true},
+            {"lag_rate", n, "rad/s", "time derivative of lag", {"pitch", "pitch_rate"}, 1.0, {}, true},
+            {"flap", n, "rad", "height of each blade tip above the hub plane over R, precone included", shape, 0.01, {}, true},
+            {"flap_rate", n, "rad/s", "time derivative of flap", {"pitch", "pitch_rate"}, 1.0, {}, true},
+            {"flap_acceleration", n, "rad/s^2", "second time derivative of flap", dynamics, 10.0},
+            {"tip_twist", n, "rad", "elastic twist of each blade tip, nose up positive", {}, 0.01, {}, true},
+            {"blade_momentum", 3, "N s", "linear momentum of all blades relative to the earth, in hub_link", motion, 100.0, {"blade_momentum_x", "blade_momentum_y", "blade_momentum_z"}},
+            {"angular_momentum", 3, "N m s", "angular momentum of all blades relative to the earth about the hub, in hub_link", motion, 1e4,
+             {"angular_momentum_x", "angular_momentum_y", "angular_momentum_z"}},
+            {"blade_energy", 1, "J", "kinetic and elastic energy of all blades", motion, 1e5},
+            {"structural_dissipation", 1, "W", "power lost in structural damping and hinge dampers", {}, 1e2}};
+  }
+
+  StiffPart stiffPart() const override {
+    const BladeCoefficients& c = dynamics_.coefficients();
+    return ModalStiff{Eigen::Map<const Vector>(c.omega.data(), static_cast<Index>(c.omega.size())),
+                      Eigen::Map<const Vector>(c.damping.data(), static_cast<Index>(c.damping.size()))};
+  }
+
+  void evalOutput(Index port, double, const In& x, const In& u, Out y) noexcept override {
+    dynamics_.deform(x.data());
+    switch (port) {
+      case kSectionPosition: case kSectionVelocity: case kSectionAxes: case kSectionPitch: case kSectionPitchRate: sectionGeometry(port, u, y); break;
+      case kSectionAcceleration: sectionAcceleration(u, y); break;
+      case kRotorForce: case kTiltingMoment: case kBladeReaction: case kRootLoad: hubLoads(port, u, y); break;
+      case kLag: case kLagRate: case kFlap: case kFlapRate: case kFlapAcceleration: case kTipTwist: tip(port, u, y); break;
+      case kMomentum: case kAngularMomentum: case kEnergy: case kDissipation: balance(port, u, y); break;
+    }
+  }
+
+  bool providesRemainder() const override { return true; }
+
+  void evalRemainder(double, const In& x, const In& u, Out remainder) noexcept override {
+    dynamics_.deform(x.data());
+    accelerate(u);
+    const Index n = static_cast<Index>(dynamics_.coefficients().modes) * blades_;
+    remainder.head(n).setZero();
+    for (int i = 0; i < dynamics_.coefficients().modes; ++i) storeLanes<L>(dynamics_.remainder()[i], blades_, remainder.data() + n + i * blades_);
+  }
+
+  void evalDerivatives(double t, const In& x, const In& u, Out xdot) noexcept override {
+    evalRemainder(t, x, u, xdot);
+    const BladeCoefficients& c = dynamics_.coefficients();
+    const Index n = static_cast<Index>(c.omega.size());
+    for (Index i = 0; i < n; ++i) {
+      xdot[i] = x[n + i];
+      xdot[n + i] -= c.omega[static_cast<std::size_t>(i)] * c.omega[static_cast<std::size_t>(i)] * x[i] + c.damping[static_cast<std::size_t>(i)] * x[n + i];
+    }
+  }
+
+ private:
+  enum Input_ { kHubMotion, kMountVelocity, kPitch, kPitchRate, kLoads, kHubAcceleration, kMountAcceleration, kPitchAcceleration, kHubGravity, kInputs };
+
+  /// cos and sin of multiples of a quarter turn without rounding, so that opposite blades cancel exactly.
+  static double exactAtQuarters(double value) { return std::abs(value) < 1e-15 ? 0.0 : std::abs(std::abs(value) - 1.0) < 1e-15 ? std::copysign(1.0, value) : value; }
+
+  const double* input(const In& u, Input_ port) const noexcept { return u.data() + offsets_[port]; }
+
+  BladeAxes<L> pitchAxes(const In& u) const noexcept {
+    BladeAxes<L> axes{};
+    axes.precone_sine = sameLanes<L>(precone_sine_);
+    axes.precone_cosine = sameLanes<L>(precone_cosine_);
+    axes.pitch_cosine = sameLanes<L>(1.0);
+    if (p_.small_angle) return axes;
+    const Vec pitch = loadLanes<L>(input(u, kPitch), blades_);
+    for (int k = 0; k < L; ++k) {
+      const SineCosine value = sineCosine(pitch[k]);
+      axes.pitch_sine[k] = value.sine;
+      axes.pitch_cosine[k] = value.cosine;
+    }
+    return axes;
+  }
+
+  BladeAxes<L> movingAxes(const In& u) const noexcept {
+    BladeAxes<L> axes = pitchAxes(u);
+    const double* motion = input(u, kHubMotion);
+    const double s = std::sin(motion[0]), c = std::cos(motion[0]);
+    axes.sine = s * blade_cosine_ + c * blade_sine_;
+    axes.cosine = c * blade_cosine_ - s * blade_sine_;
+    axes.omega = axes.fromHub(input(u, kMountVelocity) + 3);
+    axes.omega.z += motion[1];
+    axes.speed = sameLanes<L>(motion[1]);
+    if (!p_.small_angle) axes.pitch_rate = loadLanes<L>(input(u, kPitchRate), blades_);
+    return axes;
+  }
+
+  void accelerate(const In& u) noexcept {
+    const BladeAxes<L> axes = movingAxes(u);
+    dynamics_.load(axes, input(u, kLoads));
+    HubAcceleration<L> hub{};
+    const double* mount = input(u, kMountAcceleration);
+    hub.linear = axes.fromHub(mount);
+    hub.angular = axes.fromHub(mount + 3);
+    hub.angular.z += input(u, kHubAcceleration)[0];
+    // R turns relative to the mount, whose own rates change direction with it.
+    hub.angular.x += axes.omega.y * axes.speed;
+    hub.angular.y -= axes.omega.x * axes.speed;
+    if (!p_.small_angle) hub.pitch = loadLanes<L>(input(u, kPitchAcceleration), blades_);
+    dynamics_.accelerate(axes, hub);
+  }
+
+  Vec3 hubVelocity(const BladeAxes<L>& axes, const In& u) const noexcept { return axes.fromHub(input(u, kMountVelocity)); }
+
+  void store(Out& y, Index j, Index component, Index components, const Vec& value) const noexcept {
+    storeLanes<L>(value, blades_, y.data() + sectionEntry(j, component, components, 0, blades_));
+  }
+  void store(Out& y, Index j, Index component, Index components, const Vec3& value) const noexcept {
+    store(y, j, component, components, value.x);
+    store(y, j, component + 1, components, value.y);
+    store(y, j, component + 2, components, value.z);
+  }
+
+  void sectionGeometry(Index port, const In& u, Out y) noexcept {
+    const BladeAxes<L> axes = port == kSectionVelocity ? movingAxes(u) : pitchAxes(u);
+    const Vec pitch = loadLanes<L>(input(u, port == kSectionPitchRate ? kPitchRate : kPitch), blades_);
+    const Vec3 lead{Vec{}, sameLanes<L>(dynamics_.rootLead()), Vec{}};
+    Vec3 hub_velocity{}, omega_B{};
+    if (port == kSectionVelocity) {
+      hub_velocity = hubVelocity(axes, u) + cross(axes.omega, lead);
+      omega_B = axes.omegaOfBlade();
+    }
+    for (int j = 0; j < p_.sections.count(); ++j) {
+      const BladeCoefficients::SectionShape& shape = dynamics_.coefficients().shapes[static_cast<std::size_t>(j)];
+      if (port == kSectionPitchRate) {
+        store(y, j, 0, 1, pitch + dynamics_.displacementRate(j).twist);
+        continue;
+      }
+      const SectionMotion<L> d = dynamics_.displacement(j);
+      const Vec3 position{sameLanes<L>(shape.radius), d.v, d.w};
+      switch (port) {
+        case kSectionPosition: store(y, j, 0, 3, lead + axes.fromBlade(position)); break;
+        case kSectionPitch: store(y, j, 0, 1, pitch + shape.built_in_twist + d.twist); break;
+        case kSectionVelocity: {
+          const SectionMotion<L> rate = dynamics_.displacementRate(j);
+          store(y, j, 0, 3, hub_velocity + axes.fromBlade(cross(omega_B, position) + Vec3{Vec{}, rate.v, rate.w}));
+          break;
+        }
+        case kSectionAxes: {
+          Vec3 t, n;
+          sectionAxes(axes, d, t, n);
+          store(y, j, 0, 6, t);
+          store(y, j, 3, 6, n);
+          break;
+        }
+      }
+    }
+  }
+
+  /// t and n perpendicular to the deformed elastic axis, t as near to the leading-edge direction of R as possible.
+  void sectionAxes(const BladeAxes<L>& axes, const SectionMotion<L>& d, Vec3& t, Vec3& n) const noexcept {
+    if (p_.small_angle) {
+      const Vec up = d.slope_w + precone_sine_;
+      t = {-d.slope_v, sameLanes<L>(1.0), Vec{}};
+      n = {-up, Vec{}, sameLanes<L>(1.0)};
+      return;
+    }
+    const Vec3 along = axes.fromBlade({sameLanes<L>(1.0), d.slope_v, d.slope_w});
+    const Vec3 span = inverseNorm(along) * along;
+    const Vec3 lead{-span.y * span.x, 1.0 - span.y * span.y, -span.y * span.z};
+    t = inverseNorm(lead) * lead;
+    n = cross(span, t);
+  }
+
+  static Vec inverseNorm(const Vec3& v) noexcept {
+    const Vec square = dot(v, v);
+    Vec result;
+    for (int k = 0; k < L; ++k) result[k] = 1.0 / std::sqrt(square[k]);
+    return result;
+  }
+
+  void sectionAcceleration(const In& u, Out y) noexcept {
+    accelerate(u);
+    const BladeAxes<L> axes = movingAxes(u);
+    const double* mount = input(u, kMountAcceleration);
+    const double* gravity = input(u, kHubGravity);
+    const double linear_H[3] = {mount[0] + gravity[0], mount[1] + gravity[1], mount[2] + gravity[2]};
+    Vec3 angular = axes.fromHub(mount + 3);
+    angular.z += input(u, kHubAcceleration)[0];
+    angular.x += axes.omega.y * axes.speed;
+    angular.y -= axes.omega.x * axes.speed;
+    const Vec3 lead{Vec{}, sameLanes<L>(dynamics_.rootLead()), Vec{}};
+    const Vec3 origin = axes.fromHub(linear_H) + cross(angular, lead) + cross(axes.omega, cross(axes.omega, lead));
+    const Vec3 w_R = axes.toBlade(axes.omega), w = axes.omegaOfBlade();
+    Vec3 alpha = axes.toBlade(angular);
+    if (!p_.small_angle) alpha.x += loadLanes<L>(input(u, kPitchAcceleration), blades_);
+    alpha.y += axes.pitch_rate * w_R.z;
+    alpha.z -= axes.pitch_rate * w_R.y;
+    for (int j = 0; j < p_.sections.count(); ++j) {
+      const SectionMotion<L> d = dynamics_.displacement(j), rate = dynamics_.displacementRate(j), second = dynamics_.displacementAcceleration(j);
+      const Vec3 position{sameLanes<L>(dynamics_.coefficients().shapes[static_cast<std::size_t>(j)].radius), d.v, d.w};
+      const Vec3 relative{Vec{}, rate.v, rate.w};
+      const Vec3 local = cross(alpha, position) + cross(w, cross(w, position)) + sameLanes<L>(2.0) * cross(w, relative) + Vec3{Vec{}, second.v, second.w};
+      store(y, j, 0, 3, origin + axes.fromBlade(local));
+    }
+  }
+
+  double sum(const Vec& lanes) const noexcept {
+    // Opposite blades first, so that what cancels on a symmetric rotor does.
+    double total = 0.0;
+    if (blades_ % 2 == 0) for (int k = 0; k < blades_ / 2; ++k) total += lanes[k] + lanes[k + blades_ / 2];
+    else for (int k = 0; k < blades_; ++k) total += lanes[k];
+    return total;
+  }
+
+  void hubLoads(Index port, const In& u, Out y) noexcept {
+    accelerate(u);
+    const Vec3 force = dynamics_.rootForce(), moment = dynamics_.rootMoment();
+    if (port == kRootLoad) {
+      for (int k = 0; k < blades_; ++k) y.segment(6 * k, 6) << force.x[k], force.y[k], force.z[k], moment.x[k], moment.y[k], moment.z[k];
+      return;
+    }
+    const BladeAxes<L> axes = movingAxes(u);
+    const Vec3 in_hub = axes.toHub(port == kRotorForce ? force : moment);
+    if (port == kBladeReaction) y[0] = sum(in_hub.z);
+    else if (port == kTiltingMoment) y << sum(in_hub.x), sum(in_hub.y);
+    else y << sum(in_hub.x), sum(in_hub.y), sum(in_hub.z);
+  }
+
+  void tip(Index port, const In& u, Out y) noexcept {
+    const int j = static_cast<int>(p_.sections.count());
+    const SectionMotion<L> d = dynamics_.displacement(j);
+    if (port == kTipTwist) {
+      storeLanes<L>(d.twist, blades_, y.data());
+      return;
+    }
+    BladeAxes<L> axes = pitchAxes(u);
+    const Vec3 position{sameLanes<L>(p_.sections.radius), d.v, d.w};
+    Vec3 value = position;
+    if (port != kLag && port != kFlap) {
+      if (!p_.small_angle) axes.pitch_rate = loadLanes<L>(input(u, kPitchRate), blades_);
+      const SectionMotion<L> rate = dynamics_.displacementRate(j);
+      const Vec3 relative{Vec{}, rate.v, rate.w}, spin{axes.pitch_rate, Vec{}, Vec{}};
+      value = cross(spin, position) + relative;
+      if (port == kFlapAcceleration) {
+        accelerate(u);
+        const SectionMotion<L> second = dynamics_.displacementAcceleration(j);
+        Vec3 spin_rate{};
+        if (!p_.small_angle) spin_rate.x = loadLanes<L>(input(u, kPitchAcceleration), blades_);
+        value = cross(spin_rate, position) + cross(spin, cross(spin, position)) + sameLanes<L>(2.0) * cross(spin, relative) + Vec3{Vec{}, second.v, second.w};
+      }
+    }
+    const Vec3 in_R = axes.fromBlade(value);
+    storeLanes<L>((port == kLag || port == kLagRate ? in_R.y : in_R.z) / p_.sections.radius, blades_, y.data());
+  }
+
+  void balance(Index port, const In& u, Out y) noexcept {
+    if (port == kDissipation) {
+      y[0] = sum(dynamics_.dissipation());
+      return;
+    }
+    const BladeAxes<L> axes = movingAxes(u);
+    if (port == kEnergy) {
+      y[0] = sum(dynamics_.energy(axes, hubVelocity(axes, u)));
+      return;
+    }
+    Vec3 linear, angular;
+    dynamics_.momentum(axes, hubVelocity(axes, u), linear, angular);
+    const Vec3 in_hub = axes.toHub(port == kMomentum ? linear : angular);
+    y << sum(in_hub.x), sum(in_hub.y), sum(in_hub.z);
+  }
+
+  FeRotorParameters p_;
+  int blades_;
+  BladeDynamics<L> dynamics_;
+  Index offsets_[kInputs] = {};
+  Vec blade_sine_{}, blade_cosine_{};
+  double precone_sine_, precone_cosine_;
+};
+
+}  // namespace
+
+std::unique_ptr<SubsystemModel> makeFeRotorModel(const FeRotorParameters& parameters) {
+  if (parameters.sections.blades <= 4) return std::make_unique<FeRotor<4>>(parameters);
+  return std::make_unique<FeRotor<8>>(parameters);
+}
+
+Made makeFeRotor(Section& section, const BuildContext& context) {
+  const std::size_t problems = section.problems().list().size();
+  const FeRotorParameters parameters = readFeRotorParameters(section, context.simulation.rotor_speed);
+  if (section.problems().list().size() > problems) return nullptr;
+  try {
+    return makeFeRotorModel(parameters);
+  } catch (const std::exception& error) {
+    section.problem("type", std::string("a rotor whose modes exist: ") + error.what());
+    return nullptr;
+  }
+}
+
+}  // namespace heerk_rotor
