@@ -10,4 +10,6 @@ namespace heerk_rotor {
 using Made = std::unique_ptr<SubsystemModel>;
 Made makeFeRotor(Section& section, const BuildContext& context);
 
+Made makeMount(Section& section, const BuildContext& context);
+
 }  // namespace heerk_rotor

@@ -13,18 +13,30 @@ using namespace test;
 
 std::string minimalParameters(const std::string& type) {
   // type -> ", key: value ...": what is required, and what must not be zero lest a term go untested
-  static const std::map<std::string, std::string> parameters{{"elastic_mast", ", damping: 50.0"}, {"lag_rotor", ", fuselage_damping_x: 900.0, lag_damper: 70.0"}};
+  static const std::map<std::string, std::string> parameters{{"mount", ", shaft_tilt_forward_deg: 5.0, hub_offset: [0.2, -0.1, 1.5], heading_deg: 40.0, roll_deg: -7.0, pitch_deg: 11.0, mass: 5.0, inertia: [3.0, 5.0, 4.0], "
+                 "products_of_inertia: [0.1, 0.3, -0.2], wind: [3.0, 2.0, 1.0], damping: [3.0, 2.0], gear_position: [0.3, 0.2, -1.2]"},
+      {"elastic_mast", ", damping: 50.0"}, {"lag_rotor", ", fuselage_damping_x: 900.0, lag_damper: 70.0"}};
   const auto found = parameters.find(type);
   return found == parameters.end() ? "" : found->second;
+}
+
+/// Types whose ports depend on a word of their parameters are tested with each of these added to the minimal ones.
+std::vector<std::string> modes(const std::string& type) {
+  if (type != "mount") return {""};
+  std::vector<std::string> list;
+  for (const char* mode : {"rigid", "spring2", "spring6", "free"})
+    for (const char* rotation : {"ccw", "cw"}) list.push_back(std::string(", mode: ") + mode + ", rotation: " + rotation);
+  return list;
 }
 
 struct Variant {
   std::string type;
   std::string formulation;
   bool second_order;
+  std::string mode;  // of modes()
 };
 
-std::ostream& operator<<(std::ostream& out, const Variant& v) { return out << v.type << ", " << v.formulation << (v.second_order ? ", hub terms" : ""); }
+std::ostream& operator<<(std::ostream& out, const Variant& v) { return out << v.type << ", " << v.formulation << (v.second_order ? ", hub terms" : "") << v.mode; }
 
 /// One model alone, built through the registry beside the rotor that masts look for.
 struct Tested {
@@ -33,7 +45,7 @@ struct Tested {
     const std::string own = variant.type == "lag_rotor" ? terms : "";
     const Configuration configuration = Configuration::parse(
         "simulation: {rotor_speed: 41.0, step: 1.0e-3, formulation: " + variant.formulation + "}\n"
-        "subsystems:\n  rotor: {type: lag_rotor, lag_damper: [70.0, 0.0, 90.0, 20.0]" + terms + "}\n  tested: {type: " + variant.type + own + minimalParameters(variant.type) + "}\n", "minimal");
+        "subsystems:\n  rotor: {type: lag_rotor, lag_damper: [70.0, 0.0, 90.0, 20.0]" + terms + "}\n  tested: {type: " + variant.type + own + minimalParameters(variant.type) + variant.mode + "}\n", "minimal");
     Problems problems;
     const SimulationSettings settings = readSimulationSettings(configuration, problems);
     Section section(configuration, "subsystems.tested", problems);
@@ -84,7 +96,8 @@ std::vector<Variant> variants() {
   std::vector<Variant> list;
   for (const ModelType& type : modelTypes())
     for (const char* formulation : {"absolute_lag", "printed"})
-      for (const bool second_order : {true, false}) list.push_back({type.name, formulation, second_order});
+      for (const bool second_order : {true, false})
+        for (const std::string& mode : modes(type.name)) list.push_back({type.name, formulation, second_order, mode});
   return list;
 }
 
@@ -94,7 +107,9 @@ class EveryModel : public testing::TestWithParam<Variant> {
   std::mt19937 random{11};
 };
 INSTANTIATE_TEST_SUITE_P(Registry, EveryModel, testing::ValuesIn(variants()), [](const auto& info) {
-  return info.param.type + "_" + info.param.formulation + (info.param.second_order ? "_hub_terms" : "");
+  std::string name = info.param.type + "_" + info.param.formulation + (info.param.second_order ? "_hub_terms" : "") + info.param.mode;
+  name.erase(std::remove_if(name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c) && c != '_'; }), name.end());
+  return name;
 });
 
 TEST_P(EveryModel, evaluatesToFiniteNumbers) {
