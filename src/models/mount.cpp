@@ -13,7 +13,7 @@ namespace {
 
 enum Input_ { kRotorForce, kTiltingMoment = 3, kMastTorque = 5, kExternalForce = 6, kExternalMoment = 9, kWind = 12 };  // offsets into u
 enum Output_ { kVelocity, kAcceleration, kHubWind, kPositionOut, kOrientationOut, kFuselageVelocity, kRates, kHubForce, kHubMoment,
-               kHubPosition, kHubOrientation, kLinearMomentum, kAngularMomentum, kEnergy, kSpringWrench };
+               kHubPosition, kHubOrientation, kHubGravity, kLinearMomentum, kAngularMomentum, kEnergy, kSpringWrench };
 
 Matrix3d crossMatrix(const Vector3d& r) {
   Matrix3d matrix;
@@ -73,6 +73,7 @@ std::vector<OutputPort> Mount::outputs() const {
       {"hub_moment", 3, "N m", "moment that the fuselage receives at the hub, in hub_link", {"tilting_moment", "mast_torque"}, 1e3, axes("hub_moment"), true},
       {"hub_position", 3, "m", "hub centre in odom", {}, 1.0, axes("hub_position"), false},
       {"hub_orientation", 4, "-", "unit quaternion w x y z that turns hub_link axes into odom axes", {}, 1.0, quaternion("hub_orientation"), false},
+      {"hub_gravity", 3, "m/s^2", "acceleration of free fall, in " + frame, {}, 10.0, axes("hub_gravity"), false},
       {"fuselage_momentum", 3, "N s", "linear momentum of the fuselage, in odom axes", {}, 1e3, axes("momentum"), false},
       {"fuselage_angular_momentum", 3, "N m s", "angular momentum of the fuselage about the origin of odom, in odom axes", {}, 1e3, axes("angular_momentum"), false},
       {"fuselage_energy", 1, "J", "mechanical energy of the fuselage: kinetic, of the springs, of the weight", {}, 1e3, {}, false}};
@@ -143,6 +144,7 @@ void Mount::evalOutput(Index port, double, const In& x, const In& u, Out y) noex
       y << hub.w(), hub.vec();
       break;
     }
+    case kHubGravity: y = polar_.cwiseProduct(R_BH_.transpose() * (m.R_OB.transpose() * Vector3d(0.0, 0.0, -p_.gravity))); break;
     case kLinearMomentum: y = momentum(m).linear_O; break;
     case kAngularMomentum: y = momentum(m).angular_O; break;
     case kEnergy: y[0] = energy(m); break;

@@ -25,7 +25,7 @@ namespace heerk_rotor {
 ///
 /// Inputs: rotor_force [N], tilting_moment (about x, y) [N m], mast_torque (about +z) [N m], in H'; external_wrench (command: force at
 /// and moment about the centre of gravity, base_link axes); wind (command: over ground, odom axes) [m/s].
-/// Outputs: mount_velocity, mount_acceleration, hub_wind in H'; fuselage_position, _orientation (w x y z), _velocity, _rates
+/// Outputs: mount_velocity, mount_acceleration, hub_wind, hub_gravity in H'; fuselage_position, _orientation (w x y z), _velocity, _rates
 /// (the last two in base_link axes); hub_force, hub_moment: what the fuselage receives at the hub, in H. For balances:
 /// hub_position, hub_orientation, fuselage_momentum, fuselage_angular_momentum (about the origin of odom), fuselage_energy
 /// (kinetic, springs, gravity), spring_wrench (sprung modes: force, and moment about the origin of odom, odom axes).
