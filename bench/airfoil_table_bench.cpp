@@ -54,7 +54,7 @@ void sections(benchmark::State& state, const Polar& polar, double elastic_axis =
       flow.pitch[k] = pitch(random);
       flow.lag_angle[k] = 0.0;
     }
-  Section section;
+  BladeSection section;
   section.elastic_axis = elastic_axis;
   int i = 0;
   for (auto _ : state) {

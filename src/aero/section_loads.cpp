@@ -13,7 +13,7 @@ namespace {
 /// Moment of the force at the quarter chord about the elastic axis. The normal of a section with pitch theta is
 /// z cos theta + (towards the trailing edge) sin theta; at zero offset the trigonometry is not needed.
 template <int N>
-void addOffsetMoment(const Section& section, const Lanes<N>& pitch, SectionLoads<N>& loads) noexcept {
+void addOffsetMoment(const BladeSection& section, const Lanes<N>& pitch, SectionLoads<N>& loads) noexcept {
   const double arm = (section.elastic_axis - 0.25) * section.chord;
   if (arm == 0.0) return;
   for (int k = 0; k < N; ++k) {
@@ -23,7 +23,7 @@ void addOffsetMoment(const Section& section, const Lanes<N>& pitch, SectionLoads
 }
 
 template <int N, class Polar>
-void fullLoads(const Section& section, const Polar& polar, const Air& air, const SectionFlow<N>& flow, SectionLoads<N>& loads) noexcept {
+void fullLoads(const BladeSection& section, const Polar& polar, const Air& air, const SectionFlow<N>& flow, SectionLoads<N>& loads) noexcept {
   const double half_rho_c = 0.5 * air.density * section.chord, inverse_sound = 1.0 / air.speed_of_sound;
   Lanes<N> speed, alpha, mach, lift, drag, moment;
   for (int k = 0; k < N; ++k) {
@@ -48,7 +48,7 @@ void fullLoads(const Section& section, const Polar& polar, const Air& air, const
 double smallInflowAngle(double ut, double up) noexcept { return ut == 0.0 ? 0.0 : up / ut; }
 
 template <int N>
-void smallAngleLoads(const Section& section, const AirfoilTable& polar, const Air& air, const SectionFlow<N>& flow, SectionLoads<N>& loads) noexcept {
+void smallAngleLoads(const BladeSection& section, const AirfoilTable& polar, const Air& air, const SectionFlow<N>& flow, SectionLoads<N>& loads) noexcept {
   const double half_rho_c = 0.5 * air.density * section.chord;
   Lanes<N> alpha, mach, lift, drag, moment;
   for (int k = 0; k < N; ++k) {
@@ -69,7 +69,7 @@ void smallAngleLoads(const Section& section, const AirfoilTable& polar, const Ai
 /// Multiplied out with e = alpha U_T = theta U_T - U_P, so that nothing is divided by U_T: a polynomial in the flow, whose
 /// integrals over the disc are the textbook's.
 template <int N>
-void smallAngleLoads(const Section& section, const LinearPolar& polar, const Air& air, const SectionFlow<N>& flow, SectionLoads<N>& loads) noexcept {
+void smallAngleLoads(const BladeSection& section, const LinearPolar& polar, const Air& air, const SectionFlow<N>& flow, SectionLoads<N>& loads) noexcept {
   const double half_rho_c = 0.5 * air.density * section.chord;
   for (int k = 0; k < N; ++k) {
     const double ut = flow.tangential[k], up = flow.perpendicular[k], mach = std::abs(ut) / air.speed_of_sound;
@@ -109,7 +109,7 @@ void LinearPolar::at(const Lanes<N>& alpha, const Lanes<N>& mach, Lanes<N>& lift
 }
 
 template <int N, class Polar>
-void sectionLoads(const Section& section, const Polar& polar, const Air& air, SectionKinematics kinematics, const SectionFlow<N>& flow,
+void sectionLoads(const BladeSection& section, const Polar& polar, const Air& air, SectionKinematics kinematics, const SectionFlow<N>& flow,
                   SectionLoads<N>& loads) noexcept {
   if (kinematics == SectionKinematics::kFull)
     fullLoads(section, polar, air, flow, loads);
@@ -120,9 +120,9 @@ void sectionLoads(const Section& section, const Polar& polar, const Air& air, Se
 
 #define HEERK_INSTANTIATE(N)                                                                                                                  \
   template void LinearPolar::at<N>(const Lanes<N>&, const Lanes<N>&, Lanes<N>&, Lanes<N>&, Lanes<N>&) const noexcept;                         \
-  template void sectionLoads<N, LinearPolar>(const Section&, const LinearPolar&, const Air&, SectionKinematics, const SectionFlow<N>&,        \
+  template void sectionLoads<N, LinearPolar>(const BladeSection&, const LinearPolar&, const Air&, SectionKinematics, const SectionFlow<N>&,        \
                                              SectionLoads<N>&) noexcept;                                                                      \
-  template void sectionLoads<N, AirfoilTable>(const Section&, const AirfoilTable&, const Air&, SectionKinematics, const SectionFlow<N>&,      \
+  template void sectionLoads<N, AirfoilTable>(const BladeSection&, const AirfoilTable&, const Air&, SectionKinematics, const SectionFlow<N>&,      \
                                               SectionLoads<N>&) noexcept;
 HEERK_INSTANTIATE(1)
 HEERK_INSTANTIATE(4)

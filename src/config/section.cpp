@@ -138,6 +138,20 @@ std::string Section::word(const std::string& key, const std::string& fallback, c
   return fallback;
 }
 
+std::vector<std::string> Section::words(const std::string& key) {
+  const YAML::Node value = lookup(key);
+  std::vector<std::string> result;
+  if (!value.IsDefined()) return result;
+  const std::size_t size = value.IsSequence() ? value.size() : 1;
+  for (std::size_t i = 0; i < size; ++i) {
+    const YAML::Node element = value.IsSequence() ? value[i] : value;
+    if (element.IsScalar() && !element.Scalar().empty()) result.push_back(element.Scalar());
+  }
+  if (result.size() == size && size > 0) return result;
+  problem(key, "a word, or a list of words");
+  return {};
+}
+
 std::string Section::text(const std::string& key) {
   const YAML::Node value = lookup(key);
   return value.IsDefined() ? asWritten(value) : "";

@@ -12,4 +12,6 @@ Made makeFeRotor(Section& section, const BuildContext& context);
 
 Made makeMount(Section& section, const BuildContext& context);
 
+Made makeBladeAirloads(Section& section, const BuildContext& context);
+
 }  // namespace heerk_rotor

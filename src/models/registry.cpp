@@ -130,6 +130,7 @@ const std::vector<ModelType>& modelTypes() {
       {"swashplate", "second-order actuators, collective and cyclic blade pitch", makeSwashplate},
       {"lag_airloads", "blade-element airloads with uniform inflow for the lag rotor", makeLagAirloads},
       {"fe_rotor", "elastic rotor: flap, lag and torsion of the blades as finite elements (HEERK paper, Section 4)", makeFeRotor},
+      {"blade_airloads", "blade-element airloads of elastic blades: linear or tabulated polars, unsteady lift", makeBladeAirloads},
       {"monolithic_lag_rotor", "lag rotor and elastic mast as one equation (HEERK paper, A.2)", makeMonolithicLagRotor},
       {"mount", "what carries the hub: wind-tunnel mount, fuselage on springs, free rigid body", makeMount},
   };

@@ -23,7 +23,7 @@ struct Loads {
 };
 
 template <class Polar>
-Loads loads(const Polar& polar, double ut, double up, double theta, const Section& section = {}, const Air& air = {},
+Loads loads(const Polar& polar, double ut, double up, double theta, const BladeSection& section = {}, const Air& air = {},
             SectionKinematics kinematics = kFull, double lag_angle = 0.0) {
   SectionLoads<1> result;
   sectionLoads<1>(section, polar, air, kinematics, {{{ut}}, {{up}}, {{theta}}, {{lag_angle}}}, result);
@@ -62,7 +62,7 @@ TEST(BranchFreeMath, agreesWithTheLibrary) {
 }
 
 /// The formulas of the header with trigonometry and the library's functions: the plain reference.
-Loads plain(const LinearPolar& p, const Section& s, const Air& air, double ut, double up, double theta) {
+Loads plain(const LinearPolar& p, const BladeSection& s, const Air& air, double ut, double up, double theta) {
   const double W = std::hypot(ut, up), phi = std::atan2(up, ut), alpha = std::remainder(theta - phi, 2.0 * M_PI), mach = W / air.speed_of_sound;
   const double q = 0.5 * air.density * W * W * s.chord;
   const double cl = p.lift_slope / std::sqrt(1.0 - mach * mach) * (alpha - p.zero_lift_angle), cd = p.drag[0] + p.drag[1] * alpha + p.drag[2] * alpha * alpha;
@@ -76,7 +76,7 @@ Loads plain(const LinearPolar& p, const Section& s, const Air& air, double ut, d
 TEST(SectionLoads, agreeWithTheFormulas) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> ut(20.0, 240.0), up(-15.0, 15.0), theta(-0.1, 0.1);
-  Section section{0.31, 0.28, 0.9};
+  BladeSection section{0.31, 0.28, 0.9};
   const Air air{1.1, 330.0};
   for (int n = 0; n < 2000; ++n) {
     const double t = ut(random), p = up(random), th = theta(random);
@@ -100,7 +100,7 @@ TEST(SectionLoads, tableAndLinearPolarUseTheSameKinematics) {
   polar.moment = -0.02;
   Air air;
   air.speed_of_sound = std::numeric_limits<double>::infinity();
-  Section section;
+  BladeSection section;
   section.elastic_axis = 0.3;
   for (SectionKinematics kinematics : {kFull, kSmall})
     for (double up : {-20.0, 0.0, 30.0}) {
@@ -167,7 +167,7 @@ TEST(SectionLoads, reverseFlowUnderANoseUpSectionPushesItDown) {
 
 TEST(SectionLoads, symmetricSectionIsAntisymmetricInTheFlow) {
   const AirfoilTable table(test::symmetricDeck());
-  Section section;
+  BladeSection section;
   section.elastic_axis = 0.35;
   for (double angle = 0.02; angle < 3.1; angle += 0.1) {
     const double ut = 90.0 * std::cos(angle), up = 90.0 * std::sin(angle);
@@ -199,7 +199,7 @@ TEST(SectionLoads, areContinuousAllAround) {
 
 TEST(SectionLoads, momentArmFollowsTheElasticAxis) {
   const LinearPolar polar;
-  Section behind, at;
+  BladeSection behind, at;
   behind.elastic_axis = 0.35;
   const double theta = 0.1;
   const Loads a = loads(polar, 100.0, 3.0, theta, behind), b = loads(polar, 100.0, 3.0, theta, at);
@@ -256,7 +256,7 @@ template <int N, class Polar>
 void expectLanesLikeScalar(const Polar& polar) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> ut(-60.0, 240.0), up(-30.0, 30.0), theta(-0.3, 0.4), lag(-0.02, 0.02);
-  Section section;
+  BladeSection section;
   section.elastic_axis = 0.27;
   for (SectionKinematics kinematics : {kFull, kSmall})
     for (int n = 0; n < 2000; ++n) {
@@ -299,8 +299,8 @@ TEST(SectionLoads, doNotAllocate) {
   SectionLoads<4> result;
   const test::HeapCalls heap;
   for (SectionKinematics kinematics : {kFull, kSmall}) {
-    sectionLoads(Section(), table, Air(), kinematics, flow, result);
-    sectionLoads(Section(), LinearPolar(), Air(), kinematics, flow, result);
+    sectionLoads(BladeSection(), table, Air(), kinematics, flow, result);
+    sectionLoads(BladeSection(), LinearPolar(), Air(), kinematics, flow, result);
   }
   EXPECT_EQ(heap.count(), 0u);
 }

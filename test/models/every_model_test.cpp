@@ -13,9 +13,12 @@ using namespace test;
 
 std::string minimalParameters(const std::string& type) {
   // type -> ", key: value ...": what is required, and what must not be zero lest a term go untested
-  static const std::map<std::string, std::string> parameters{{"mount", ", shaft_tilt_forward_deg: 5.0, hub_offset: [0.2, -0.1, 1.5], heading_deg: 40.0, roll_deg: -7.0, pitch_deg: 11.0, mass: 5.0, inertia: [3.0, 5.0, 4.0], "
-                 "products_of_inertia: [0.1, 0.3, -0.2], wind: [3.0, 2.0, 1.0], damping: [3.0, 2.0], gear_position: [0.3, 0.2, -1.2]"},
-      {"elastic_mast", ", damping: 50.0"}, {"lag_rotor", ", fuselage_damping_x: 900.0, lag_damper: 70.0"}};
+  static const std::map<std::string, std::string> parameters{
+      {"mount", ", shaft_tilt_forward_deg: 5.0, hub_offset: [0.2, -0.1, 1.5], heading_deg: 40.0, roll_deg: -7.0, pitch_deg: 11.0, mass: 5.0, inertia: [3.0, 5.0, 4.0], "
+                "products_of_inertia: [0.1, 0.3, -0.2], wind: [3.0, 2.0, 1.0], damping: [3.0, 2.0], gear_position: [0.3, 0.2, -1.2]"},
+      {"blade_airloads", ", unsteady: beddoes"},
+      {"elastic_mast", ", damping: 50.0"},
+      {"lag_rotor", ", fuselage_damping_x: 900.0, lag_damper: 70.0"}};
   const auto found = parameters.find(type);
   return found == parameters.end() ? "" : found->second;
 }
@@ -45,7 +48,8 @@ struct Tested {
     const std::string own = variant.type == "lag_rotor" ? terms : "";
     const Configuration configuration = Configuration::parse(
         "simulation: {rotor_speed: 41.0, step: 1.0e-3, formulation: " + variant.formulation + "}\n"
-        "subsystems:\n  rotor: {type: lag_rotor, lag_damper: [70.0, 0.0, 90.0, 20.0]" + terms + "}\n  tested: {type: " + variant.type + own + minimalParameters(variant.type) + variant.mode + "}\n", "minimal");
+        "subsystems:\n  rotor: {type: lag_rotor, lag_damper: [70.0, 0.0, 90.0, 20.0]" + terms + "}\n  tested: {type: " + variant.type + own + minimalParameters(variant.type) + variant.mode + "}\n"
+        "  blades: {type: fe_rotor}\n", "minimal");
     Problems problems;
     const SimulationSettings settings = readSimulationSettings(configuration, problems);
     Section section(configuration, "subsystems.tested", problems);

@@ -9,7 +9,7 @@ struct Air {
 };
 
 /// What a blade section is, besides its polar.
-struct Section {
+struct BladeSection {
   double chord = 0.3;          // c [m]
   double elastic_axis = 0.25;  // position of the axis for moments behind the leading edge [parts of c]
   double lift_factor = 1.0;    // on the lift only, see tipLossFactor
@@ -44,7 +44,7 @@ struct SectionLoads {
 /// The cosine of phi is U_T / W. Without wind (W = 0) all loads are zero. A value that is not finite gives loads that are not finite.
 /// Polar: LinearPolar or AirfoilTable. N: 1, 4 or 8.
 template <int N, class Polar>
-void sectionLoads(const Section& section, const Polar& polar, const Air& air, SectionKinematics kinematics, const SectionFlow<N>& flow,
+void sectionLoads(const BladeSection& section, const Polar& polar, const Air& air, SectionKinematics kinematics, const SectionFlow<N>& flow,
                   SectionLoads<N>& loads) noexcept;
 
 }  // namespace heerk_rotor
