@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model_factories.hpp"
+
 namespace heerk_rotor {
 namespace {
 enum State_ { kAngle, kRate, kDemand };
@@ -31,6 +33,18 @@ void Drive::evalDerivatives(double, const In& x, const In& u, Out xdot) noexcept
   xdot[kAngle] = x[kRate];
   xdot[kRate] = p_.max_acceleration * std::tanh(x[kDemand] / p_.max_acceleration);
   xdot[kDemand] = p_.frequency * p_.frequency * (command - p_.rotor_speed - x[kRate]) - 2.0 * p_.damping_ratio * p_.frequency * x[kDemand];
+}
+
+Made makeDrive(Section& section, const BuildContext& context) {
+  Drive::Parameters p;
+  p.rotor_speed = context.simulation.rotor_speed;
+  p.frequency = section.number("frequency", p.frequency, "rad/s", positive());
+  p.damping_ratio = section.number("damping_ratio", p.damping_ratio, "-", positive());
+  p.max_acceleration = section.number("max_acceleration", p.max_acceleration, "rad/s^2", positive());
+  p.min_speed = section.number("min_speed", 0.5 * p.rotor_speed, "rad/s", nonNegative());
+  p.max_speed = section.number("max_speed", 1.2 * p.rotor_speed, "rad/s", {p.min_speed, 1e4, false});
+  section.finish();
+  return std::make_unique<Drive>(p);
 }
 
 }  // namespace heerk_rotor

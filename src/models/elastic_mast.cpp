@@ -2,39 +2,19 @@
 
 #include <cmath>
 
+#include "model_factories.hpp"
+
 namespace heerk_rotor {
 namespace {
-
 enum State_ { kTwist, kTwistRate };
-enum Input_ { kReaction, kDriveAngle, kDriveRate, kDriveAcceleration };
-enum Output_ { kHubMotion, kHubAcceleration, kTwistOut, kAzimuth, kSpeed, kTorque };
-
-std::vector<InputPort> mastInputs(bool reaction_needed) {
-  return {{"blade_reaction", 1, "N m", "moment of the blades on the hub about +z", reaction_needed ? Unconnected::kError : Unconnected::kDefault},
-          {"drive", 3, "rad, rad/s, rad/s^2", "angle, rate and acceleration of the drive relative to Omega t", Unconnected::kDefault, {}, {"angle", "rate", "acceleration"}}};
 }
-
-std::vector<OutputPort> mastOutputs(bool elastic, double rotor_speed) {
-  const std::vector<std::string> acceleration = elastic ? std::vector<std::string>{"blade_reaction", "drive"} : std::vector<std::string>{"drive"};
-  const std::vector<std::string> torque = elastic ? std::vector<std::string>{} : std::vector<std::string>{"blade_reaction", "drive"};
-  return {{"hub_motion", 4, "rad, rad/s", "azimuth and speed of the hub, mast twist and its rate", {"drive"}, 1.0, {"hub_azimuth", "hub_speed", "hub_twist", "hub_twist_rate"}, false, {"rad", "rad/s", "rad", "rad/s"}},
-          {"hub_acceleration", 2, "rad/s^2", "angular acceleration of the hub and of the drive", acceleration, 1.0, {"hub_acceleration", "drive_acceleration"}, false},
-          {"twist", 1, "rad", "hub angle minus drive angle", {}, 1e-3, {}, true},
-          {"azimuth", 1, "rad", "hub angle, unwrapped; blade 1 is aft at multiples of 2 pi", {"drive"}, 1.0, {}, false},
-          {"rotor_speed", 1, "rad/s", "speed of the hub", {"drive"}, rotor_speed, {}, true},
-          {"torque", 1, "N m", "torque of the mast on the fuselage, about +z of hub_link", torque, 1e3, {}, true}};
-}
-
-}  // namespace
-
-ElasticMast::ElasticMast(const Parameters& parameters, const MastLoad& load) : p_(parameters), load_(load) {}
 
 std::vector<State> ElasticMast::states() const {
   return {{"twist", "rad", "hub angle minus drive angle"}, {"twist_rate", "rad/s", "rate of the twist"}};
 }
 
-std::vector<InputPort> ElasticMast::inputs() const { return mastInputs(true); }
-std::vector<OutputPort> ElasticMast::outputs() const { return mastOutputs(true, p_.rotor_speed); }
+std::vector<InputPort> ElasticMast::inputs() const { return mastInputs(hub_, true); }
+std::vector<OutputPort> ElasticMast::outputs() const { return mastOutputs(hub_, true, p_.rotor_speed); }
 
 StiffPart ElasticMast::stiffPart() const {
   ModalStiff part;
@@ -44,7 +24,8 @@ StiffPart ElasticMast::stiffPart() const {
 }
 
 double ElasticMast::hubAcceleration(const In& x, const In& u) const noexcept {
-  return (u[kReaction] - p_.stiffness * x[kTwist] - p_.damping * x[kTwistRate]) / load_.inertia;
+  const double in_space = (u[kReaction] - p_.stiffness * x[kTwist] - p_.damping * x[kTwistRate]) / load_.inertia;
+  return hub_ == MastHub::kOwn ? in_space - u[kMountAcceleration + kYaw] : in_space;
 }
 
 void ElasticMast::evalOutput(Index port, double t, const In& x, const In& u, Out y) noexcept {
@@ -55,6 +36,8 @@ void ElasticMast::evalOutput(Index port, double t, const In& x, const In& u, Out
     case kAzimuth: y[0] = p_.rotor_speed * t + u[kDriveAngle] + x[kTwist]; break;
     case kSpeed: y[0] = p_.rotor_speed + u[kDriveRate] + x[kTwistRate]; break;
     case kTorque: y[0] = p_.stiffness * x[kTwist] + p_.damping * x[kTwistRate]; break;
+    case kGyroscopicMoment: gyroscopicMoment(hubAngularMomentum(load_.inertia, p_.rotor_speed + u[kDriveRate] + x[kTwistRate], u), u, y); break;
+    case kHubAngularMomentum: y[0] = hubAngularMomentum(load_.inertia, p_.rotor_speed + u[kDriveRate] + x[kTwistRate], u); break;
   }
 }
 
@@ -62,6 +45,7 @@ bool ElasticMast::outputJacobian(Index port, double, const In&, const In&, Eigen
   if (port != kHubAcceleration) return false;
   jacobian(0, kReaction) = 1.0 / load_.inertia;
   jacobian(1, kDriveAcceleration) = 1.0;
+  if (hub_ == MastHub::kOwn) jacobian(0, kMountAcceleration + kYaw) = -1.0;
   return true;
 }
 
@@ -73,20 +57,33 @@ void ElasticMast::evalDerivatives(double, const In& x, const In& u, Out xdot) no
 void ElasticMast::evalRemainder(double, const In& x, const In& u, Out remainder) noexcept {
   remainder[kTwist] = 0.0;
   remainder[kTwistRate] = (u[kReaction] + load_.stiffness * x[kTwist] + load_.damping * x[kTwistRate]) / load_.inertia - u[kDriveAcceleration];
+  if (hub_ == MastHub::kOwn) remainder[kTwistRate] -= u[kMountAcceleration + kYaw];
 }
 
-std::vector<InputPort> RigidMast::inputs() const { return mastInputs(false); }
-std::vector<OutputPort> RigidMast::outputs() const { return mastOutputs(false, rotor_speed_); }
+namespace {
 
-void RigidMast::evalOutput(Index port, double t, const In&, const In& u, Out y) noexcept {
-  switch (port) {
-    case kHubMotion: y << rotor_speed_ * t + u[kDriveAngle], rotor_speed_ + u[kDriveRate], 0.0, 0.0; break;
-    case kHubAcceleration: y << u[kDriveAcceleration], u[kDriveAcceleration]; break;
-    case kTwistOut: y[0] = 0.0; break;
-    case kAzimuth: y[0] = rotor_speed_ * t + u[kDriveAngle]; break;
-    case kSpeed: y[0] = rotor_speed_ + u[kDriveRate]; break;
-    case kTorque: y[0] = u[kReaction] - load_.inertia * u[kDriveAcceleration]; break;
-  }
+/// A spring-mounted hub needs inertia of its own: without hinge offset or blade inertia, common lag motion balances the hub of a lag
+/// rotor completely (kappa is infinite) and the coupled system is not index 1. Long before that its equations lose all digits, because
+/// the hub acceleration is a difference that is kappa times smaller than its parts.
+bool checkMastInertia(Section& section, double kappa) {
+  constexpr double kLargestKappa = 1e8;  // leaves half of the digits
+  if (kappa <= kLargestKappa) return true;
+  section.problem("type", "rigid_mast, because with so small a hinge_offset or blade_inertia of the rotor the hub has no inertia against "
+                          "common lag motion, and an elastic mast makes the system not index 1");
+  return false;
+}
+
+}  // namespace
+
+Made makeElasticMast(Section& section, const BuildContext& context) {
+  ElasticMast::Parameters p;
+  p.stiffness = section.number("stiffness", p.stiffness, "N m/rad", positive());
+  p.damping = section.number("damping", p.damping, "N m s/rad", nonNegative());
+  p.rotor_speed = context.simulation.rotor_speed;
+  const HubOnMast hub = readHubOnMast(section, context);
+  section.finish();
+  if (!checkMastInertia(section, hub.kappa)) return nullptr;
+  return std::make_unique<ElasticMast>(p, hub.load, hub.kind);
 }
 
 }  // namespace heerk_rotor

@@ -23,33 +23,37 @@ std::string minimalParameters(const std::string& type) {
   return found == parameters.end() ? "" : found->second;
 }
 
-/// Types whose ports depend on a word of their parameters are tested with each of these added to the minimal ones.
-std::vector<std::string> modes(const std::string& type) {
-  if (type != "mount") return {""};
-  std::vector<std::string> list;
-  for (const char* mode : {"rigid", "spring2", "spring6", "free"})
-    for (const char* rotation : {"ccw", "cw"}) list.push_back(std::string(", mode: ") + mode + ", rotation: " + rotation);
-  return list;
+/// Options that change ports or equations: each is tested added to the minimal parameters.
+std::vector<std::string> furtherParameters(const std::string& type) {
+  static const std::map<std::string, std::vector<std::string>> parameters{
+      {"elastic_mast", {", hub_inertia: 60.0"}},
+      {"rigid_mast", {", hub_inertia: 60.0"}},
+      {"mount", {", mode: rigid", ", mode: rigid, rotation: cw", ", mode: spring2", ", mode: spring2, rotation: cw", ", mode: spring6", ", mode: spring6, rotation: cw",
+                 ", mode: free, rotation: cw"}},
+      {"blade_airloads", {", virtual_mass: true", ", kinematics: small_angle"}},
+      {"swashplate", {", blades: 5, phase_deg: 20.0, delta3_deg: -15.0"}}};
+  const auto found = parameters.find(type);
+  return found == parameters.end() ? std::vector<std::string>{} : found->second;
 }
 
 struct Variant {
   std::string type;
   std::string formulation;
   bool second_order;
-  std::string mode;  // of modes()
+  std::string parameters;
+  int option = 0;  // number of the set of parameters, 0 for the minimal one
 };
 
-std::ostream& operator<<(std::ostream& out, const Variant& v) { return out << v.type << ", " << v.formulation << (v.second_order ? ", hub terms" : "") << v.mode; }
+std::ostream& operator<<(std::ostream& out, const Variant& v) { return out << v.type << v.parameters << ", " << v.formulation << (v.second_order ? ", hub terms" : ""); }
 
-/// One model alone, built through the registry beside the rotor that masts look for.
+/// One model alone, built through the registry beside the rotors that other models look for.
 struct Tested {
   explicit Tested(const Variant& variant) {
     const std::string terms = std::string(", second_order_hub_terms: ") + (variant.second_order ? "true" : "false");
     const std::string own = variant.type == "lag_rotor" ? terms : "";
     const Configuration configuration = Configuration::parse(
         "simulation: {rotor_speed: 41.0, step: 1.0e-3, formulation: " + variant.formulation + "}\n"
-        "subsystems:\n  rotor: {type: lag_rotor, lag_damper: [70.0, 0.0, 90.0, 20.0]" + terms + "}\n  tested: {type: " + variant.type + own + minimalParameters(variant.type) + variant.mode + "}\n"
-        "  blades: {type: fe_rotor}\n", "minimal");
+        "subsystems:\n  rotor: {type: lag_rotor, lag_damper: [70.0, 0.0, 90.0, 20.0]" + terms + "}\n  fe: {type: fe_rotor}\n  tested: {type: " + variant.type + own + variant.parameters + "}\n", "minimal");
     Problems problems;
     const SimulationSettings settings = readSimulationSettings(configuration, problems);
     Section section(configuration, "subsystems.tested", problems);
@@ -100,8 +104,12 @@ std::vector<Variant> variants() {
   std::vector<Variant> list;
   for (const ModelType& type : modelTypes())
     for (const char* formulation : {"absolute_lag", "printed"})
-      for (const bool second_order : {true, false})
-        for (const std::string& mode : modes(type.name)) list.push_back({type.name, formulation, second_order, mode});
+      for (const bool second_order : {true, false}) list.push_back({type.name, formulation, second_order, minimalParameters(type.name)});
+  // Nothing in the further sets depends on the lag rotor's formulation.
+  for (const ModelType& type : modelTypes()) {
+    int option = 0;
+    for (const std::string& parameters : furtherParameters(type.name)) list.push_back({type.name, "printed", true, minimalParameters(type.name) + parameters, ++option});
+  }
   return list;
 }
 
@@ -111,9 +119,8 @@ class EveryModel : public testing::TestWithParam<Variant> {
   std::mt19937 random{11};
 };
 INSTANTIATE_TEST_SUITE_P(Registry, EveryModel, testing::ValuesIn(variants()), [](const auto& info) {
-  std::string name = info.param.type + "_" + info.param.formulation + (info.param.second_order ? "_hub_terms" : "") + info.param.mode;
-  name.erase(std::remove_if(name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c) && c != '_'; }), name.end());
-  return name;
+  return info.param.type + "_" + info.param.formulation + (info.param.second_order ? "_hub_terms" : "") +
+         (info.param.option == 0 ? "" : "_option_" + std::to_string(info.param.option));
 });
 
 TEST_P(EveryModel, evaluatesToFiniteNumbers) {

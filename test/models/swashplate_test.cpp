@@ -127,5 +127,141 @@ TEST(Swashplate, pitchRateIsTheDerivativeOfPitchWhileThePlateMoves) {
   EXPECT_LE(worst, 1e-7 * largest);
 }
 
+/// A hub whose speed varies, and blades that flap, both as given functions of time.
+class UnsteadyRotor : public SubsystemModel {
+ public:
+  explicit UnsteadyRotor(int blades) : blades_(blades) {}
+  std::vector<State> states() const override { return {}; }
+  std::vector<InputPort> inputs() const override { return {}; }
+  std::vector<OutputPort> outputs() const override {
+    return {{"hub_motion", 4, "rad, rad/s", "azimuth and speed, no twist"}, {"hub_acceleration", 2, "rad/s^2", "of hub and drive"},
+            {"flap", blades_, "rad", "of each blade"}, {"flap_rate", blades_, "rad/s", "its rate"}, {"flap_acceleration", blades_, "rad/s^2", "its acceleration"}};
+  }
+  void evalOutput(Index port, double t, const In&, const In&, Out y) noexcept override {
+    const double a = 0.3, n = 7.0;
+    if (port == 0) y << kSpeed * t + a * std::sin(n * t), kSpeed + a * n * std::cos(n * t), 0.0, 0.0;
+    else if (port == 1) y << -a * n * n * std::sin(n * t), 0.0;
+    else
+      for (int k = 0; k < blades_; ++k) {
+        const double m = 40.0 + k, phase = m * t + k;
+        y[k] = 0.05 * (port == 2 ? std::sin(phase) : port == 3 ? m * std::cos(phase) : -m * m * std::sin(phase));
+      }
+  }
+  void evalDerivatives(double, const In&, const In&, Out) noexcept override {}
+
+ private:
+  int blades_;
+};
+
+std::unique_ptr<Simulation> unsteadyRig(const Swashplate::Parameters& p, double h) {
+  CouplingGraph graph;
+  graph.add("rotor", std::make_unique<UnsteadyRotor>(p.blades));
+  graph.add("swashplate", std::make_unique<Swashplate>(p));
+  for (const char* port : {"hub_motion", "hub_acceleration"}) graph.connect(std::string("rotor.") + port, std::string("swashplate.") + port);
+  if (p.delta3 != 0.0)
+    for (const char* port : {"flap", "flap_rate", "flap_acceleration"}) graph.connect(std::string("rotor.") + port, std::string("swashplate.") + port);
+  StepOptions options;
+  options.step = h;
+  options.method = &tableau("HEERK4");
+  return std::make_unique<Simulation>(std::move(graph).build(), options);
+}
+
+std::vector<std::string> perBlade(const std::string& port, int blades) {
+  std::vector<std::string> names;
+  for (int k = 1; k <= blades; ++k) names.push_back("swashplate." + port + "_" + std::to_string(k));
+  return names;
+}
+
+TEST(Swashplate, rateAndAccelerationAreTheDerivativesOfThePitchForAnyNumberOfBlades) {
+  const double h = 1e-4;
+  double worst = 0.0;
+  for (int blades = 2; blades <= 8; ++blades) {
+    Swashplate::Parameters p;
+    p.blades = blades;
+    p.phase = 0.2;
+    p.delta3 = blades % 2 ? 0.4 : 0.0;
+    auto simulation = unsteadyRig(p, h);
+    const auto names = perBlade("pitch", blades) + perBlade("pitch_rate", blades) + perBlade("pitch_acceleration", blades);
+    Vector w = simulation->system().defaultCommand();
+    w << 0.1, -0.08, 0.15;  // fast enough for the rate limit to work
+    Recorder record(*simulation, names);
+    ASSERT_TRUE(advance(*simulation, 1500, w));
+    for (Index order = 1; order <= 2; ++order)
+      for (Index k = 0; k < blades; ++k) {
+        double error = 0.0, largest = 0.0;
+        for (std::size_t n = 3; n + 3 < record.rows.size(); ++n) {
+          const auto before = [&](std::size_t m) { return record.rows[m][(order - 1) * blades + k]; };
+          const double slope = (45.0 * (before(n + 1) - before(n - 1)) - 9.0 * (before(n + 2) - before(n - 2)) + (before(n + 3) - before(n - 3))) / (60.0 * h);
+          error = std::max(error, std::abs(slope - record.rows[n][order * blades + k]));
+          largest = std::max(largest, std::abs(slope));
+        }
+        // Differences of sixth order; the trajectory itself is of fourth, with the limiter's 3 ms: (h / 3 ms)^4 / 30 = 4e-8.
+        EXPECT_LE(error, 1e-7 * largest) << blades << " blades, derivative " << order << ", blade " << k + 1;
+        worst = std::max(worst, error / largest);
+      }
+  }
+  report("pitch derivatives against differences, relative", worst);
+}
+
+TEST(Swashplate, bladesAreRelabelledByTurningTheHubOneBladeAngle) {
+  // theta_k at psi + 2 pi / N is theta_{k+1} at psi: exact for N = 4, where the constants are, to round-off of psi otherwise.
+  for (int blades = 2; blades <= 8; ++blades) {
+    Swashplate::Parameters p;
+    p.blades = blades;
+    p.phase = -0.3;
+    Swashplate plate(p);
+    const Vector x = (Vector(6) << 0.1, 0.03, -0.05, 0.2, -0.3, 0.5).finished();
+    Vector u = (Vector(9) << 0.2, 0.01, 0.02, 1.3, kSpeed, 0.0, 0.0, 5.0, 0.0).finished(), turned = u;
+    turned[3] += 2.0 * M_PI / blades;
+    for (Index port = 0; port < 3; ++port) {
+      Vector y = Vector::Zero(blades), z = y;
+      plate.evalOutput(port, 0.0, in(x), in(u), view(y));
+      plate.evalOutput(port, 0.0, in(x), in(turned), view(z));
+      for (Index k = 0; k < blades; ++k) EXPECT_NEAR(z[k], y[(k + 1) % blades], 4e-15 * y.cwiseAbs().maxCoeff()) << blades << ", port " << port;
+    }
+  }
+}
+
+TEST(Swashplate, flapUpLowersThePitchByTheTangentOfDelta3) {
+  Swashplate::Parameters p;
+  p.delta3 = 0.5;
+  p.trim = {0.1, 0.0, 0.0};
+  auto simulation = unsteadyRig(p, 1e-3);
+  ASSERT_TRUE(advance(*simulation, 100));
+  const Vector y = look(*simulation, perBlade("pitch", 4) + std::vector<std::string>{"rotor.flap_1", "rotor.flap_2", "rotor.flap_3", "rotor.flap_4"});
+  for (Index k = 0; k < 4; ++k) EXPECT_NEAR(y[k], 0.1 - std::tan(0.5) * y[4 + k], 1e-15);
+}
+
+TEST(Swashplate, controlPhaseMovesTheLargestPitchAheadOfThePlate) {
+  // With only theta_1c the pitch is largest where psi + Delta = 0: at psi = -Delta.
+  Swashplate::Parameters p;
+  p.phase = 0.25;
+  Swashplate plate(p);
+  const Vector x = (Vector(6) << 0.0, 0.1, 0.0, 0.0, 0.0, 0.0).finished(), u = (Vector(9) << 0, 0, 0, -0.25, kSpeed, 0, 0, 0, 0).finished();
+  Vector y = Vector::Zero(4);
+  plate.evalOutput(0, 0.0, in(x), in(u), view(y));
+  EXPECT_EQ(y[0], 0.1);
+  EXPECT_EQ(y[1], 0.0);  // exactly: no cos(pi / 2) of 6e-17
+  EXPECT_EQ(y[2], -0.1);
+}
+
+TEST(BladeAzimuths, constantsAreExactToTheLastBitAndSymmetric) {
+  for (int blades = 1; blades <= 8; ++blades) {
+    const BladeAzimuths azimuths(blades);
+    double cosine[8], sine[8];
+    azimuths.evaluate(0.0, cosine, sine);
+    for (int k = 0; k < blades; ++k) {
+      const long double angle = 2.0L * 3.141592653589793238462643383279502884L * k / blades;
+      EXPECT_NEAR(cosine[k], static_cast<double>(std::cos(angle)), 1.2e-16);  // one unit in the last place
+      EXPECT_NEAR(sine[k], static_cast<double>(std::sin(angle)), 1.2e-16);
+      if (k > 0) {
+        EXPECT_EQ(cosine[k], cosine[blades - k]);
+        EXPECT_EQ(sine[k], -sine[blades - k]);
+      }
+    }
+  }
+  EXPECT_THROW(BladeAzimuths(9), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace heerk_rotor
