@@ -1,5 +1,6 @@
 // The part of BladeAirloads that runs at every evaluation, all blades of a section at once.
 #include <cmath>
+#include <cstring>
 
 #include "heerk_rotor/aero/branch_free_math.hpp"
 #include "heerk_rotor/models/blade_airloads.hpp"
@@ -7,21 +8,24 @@
 namespace heerk_rotor {
 namespace {
 
-/// Values of all blades; lanes beyond the last blade repeat the first blade, so that they hold ordinary numbers.
+/// Values of all blades; lanes beyond the last blade repeat the first blade, so that they hold ordinary numbers. Whole lanes are moved at
+/// once: memcpy becomes one vector instruction, where lane by lane stalls the vector operations that follow.
 template <int N>
-void load(const double* from, int blades, Lanes<N>& to) noexcept {
-  if (blades == N)
-    for (int k = 0; k < N; ++k) to[k] = from[k];
-  else
+inline void load(const double* from, int blades, Lanes<N>& to) noexcept {
+  if (blades == N) {
+    std::memcpy(to.value, from, sizeof to.value);
+  } else {
     for (int k = 0; k < N; ++k) to[k] = from[k < blades ? k : 0];
+  }
 }
 
 template <int N>
-void store(const Lanes<N>& from, int blades, double* to) noexcept {
-  if (blades == N)
-    for (int k = 0; k < N; ++k) to[k] = from[k];
-  else
+inline void store(const Lanes<N>& from, int blades, double* to) noexcept {
+  if (blades == N) {
+    std::memcpy(to, from.value, sizeof from.value);
+  } else {
     for (int k = 0; k < blades; ++k) to[k] = from[k];
+  }
 }
 
 template <int N>
@@ -31,12 +35,12 @@ struct Vector3 {
 
 /// Component c of entry `section` of a port with `components`.
 template <int N>
-void load(const double* port, Index section, Index components, Index c, int blades, Lanes<N>& to) noexcept {
+inline void load(const double* port, Index section, Index components, Index c, int blades, Lanes<N>& to) noexcept {
   load<N>(port + sectionEntry(section, c, components, 0, blades), blades, to);
 }
 
 template <int N>
-void load(const double* port, Index section, Index components, Index c, int blades, Vector3<N>& to) noexcept {
+inline void load(const double* port, Index section, Index components, Index c, int blades, Vector3<N>& to) noexcept {
   load<N>(port, section, components, c, blades, to.x);
   load<N>(port, section, components, c + 1, blades, to.y);
   load<N>(port, section, components, c + 2, blades, to.z);
@@ -194,7 +198,7 @@ void BladeAirloads::evaluate(const double* x, const double* u, Results& results)
   }
 
   const bool lag = p_.unsteady != Unsteady::kNone;
-  double thrust = 0.0, sine_part = 0.0, cosine_part = 0.0;
+  Lanes<N> thrust{}, sine_part{}, cosine_part{};
   for (Index j = 0; j < p_.sections.count(); ++j) {
     Flow<N> flow;
     readFlow(j, blades, u, flow);
@@ -230,15 +234,19 @@ void BladeAirloads::evaluate(const double* x, const double* u, Results& results)
     store(loads.moment, count, out + 3 * count);
     store(loads.alpha, count, results.alpha.data() + j * count);
     store(loads.mach, count, results.mach.data() + j * count);
-    for (int k = 0; k < count; ++k) {
-      thrust += force.z[k];
-      sine_part += flow.r_sine[k] * force.z[k];
-      cosine_part += flow.r_cosine[k] * force.z[k];
+    for (int k = 0; k < N; ++k) {
+      thrust[k] += force.z[k];
+      sine_part[k] += flow.r_sine[k] * force.z[k];
+      cosine_part[k] += flow.r_cosine[k] * force.z[k];
     }
   }
-  results.rotor_loads[0] = thrust / reference_force_;
-  results.rotor_loads[1] = sine_part / reference_force_;
-  results.rotor_loads[2] = cosine_part / reference_force_;
+  double sums[3] = {};
+  for (int k = 0; k < count; ++k) {
+    sums[0] += thrust[k];
+    sums[1] += sine_part[k];
+    sums[2] += cosine_part[k];
+  }
+  for (int i = 0; i < 3; ++i) results.rotor_loads[i] = sums[i] / reference_force_;
 }
 
 template void BladeAirloads::evaluate<4>(const double*, const double*, Results&) const noexcept;
