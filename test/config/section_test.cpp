@@ -53,6 +53,21 @@ TEST_F(SectionTest, standsInForAMissingRequiredNumberWithOneInRange) {
   EXPECT_EQ(problems_.text().substr(0, problems_.text().find('\n')), "t.yaml:2: subsystems.a.mass = (missing): expected a number > 0 [kg]");
 }
 
+TEST_F(SectionTest, takesOneWordOrAListOfWords) {
+  Section s = section("    one: a.c81\n    two: [a.c81, dir/b.c81]\n    none: []\n    nested: [a, [b]]\n    map: {a: 1}\n    nothing:\n");
+  EXPECT_EQ(s.words("one"), std::vector<std::string>{"a.c81"});
+  EXPECT_EQ(s.words("two"), (std::vector<std::string>{"a.c81", "dir/b.c81"}));
+  EXPECT_TRUE(s.words("absent").empty());
+  EXPECT_TRUE(problems_.empty());
+  for (const char* key : {"none", "nested", "map", "nothing"}) EXPECT_TRUE(s.words(key).empty()) << key;
+  s.finish();
+  EXPECT_EQ(problems_.text(),
+            "t.yaml:5: subsystems.a.none = []: expected a word, or a list of words\n"
+            "t.yaml:6: subsystems.a.nested = [a, [b]]: expected a word, or a list of words\n"
+            "t.yaml:7: subsystems.a.map = {a: 1}: expected a word, or a list of words\n"
+            "t.yaml:8: subsystems.a.nothing = (empty): expected a word, or a list of words");
+}
+
 TEST_F(SectionTest, takesOneNumberForAllOrAListOfTheRightLength) {
   Section s = section("    one: 2\n    four: [1, 2, 3, 4]\n    three: [1, 2, 3]\n    bad: [1, x, 3, -4]\n    map: {a: 1}\n");
   EXPECT_EQ(s.numbers("one", 4, 0.0, "m"), std::vector<double>(4, 2.0));
