@@ -103,14 +103,15 @@ void BladeAirloads::readFlow(Index j, const Blades<N>& blades, const double* u, 
   }
   if (!readsPitchRate()) return;
   load<N>(u + in_.pitch_rate, j, 1, 0, count, flow.pitch_rate);
-  const double arm = flow_arm_ * geometry_[j].chord;
   for (int k = 0; k < N; ++k) {
     const double span_x = flow.t.y[k] * flow.n.z[k] - flow.t.z[k] * flow.n.y[k];
     const double span_y = flow.t.z[k] * flow.n.x[k] - flow.t.x[k] * flow.n.z[k];
     const double span_z = flow.t.x[k] * flow.n.y[k] - flow.t.y[k] * flow.n.x[k];
     flow.pitch_rate[k] += blades.rates.x[k] * span_x + blades.rates.y[k] * span_y + blades.rates.z[k] * span_z;
-    flow.air.perpendicular[k] -= arm * flow.pitch_rate[k];  // nose up moves what is behind the axis down, into the air
   }
+  if (flow_arm_ == 0.0) return;
+  const double arm = flow_arm_ * geometry_[j].chord;
+  for (int k = 0; k < N; ++k) flow.air.perpendicular[k] -= arm * flow.pitch_rate[k];  // nose up moves what is behind the axis down
 }
 
 /// Chordwise flow and the direction of the chord, for the options that need them.
