@@ -151,6 +151,21 @@ TEST(MountMotion, smallMotionOnTheGearHasTheClosedFormFrequencies) {
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(found[i], expected[i], 1e-7 * expected[i]);  // differences with a step of 1e-5: 1e-10 relative
 }
 
+TEST(MountMotion, defaultGearIsWellDampedAndClearOfTheRegressingLagMode) {
+  // A soft in-plane rotor at 44.4 rad/s with a lag frequency of 0.67 per revolution has its regressing lag mode at 15 rad/s in the fixed frame.
+  ReducedOde ode(loneMount("mode: spring6, norm_feedback: 0.0"));
+  const Matrix jacobian = ode.jacobian(0.0, ode.system.initialState(), 1e-5);
+  const Eigen::EigenSolver<Matrix> modes(jacobian, false);
+  int oscillators = 0;
+  for (const std::complex<double>& value : modes.eigenvalues()) {
+    if (value.imag() <= 1.0) continue;
+    ++oscillators;
+    EXPECT_GT(std::abs(value), 25.0);
+    EXPECT_GT(-value.real() / std::abs(value), 0.08);
+  }
+  EXPECT_EQ(oscillators, 6);
+}
+
 const char* const kTumblingOnSprings =
     "mode: spring6, mass: 10.0, inertia: [2.0, 3.0, 4.0], products_of_inertia: [0.2, -0.3, 0.1], gear_position: [0.2, 0.1, -0.5], heading_deg: 40.0, roll_deg: 10.0, "
     "gear_stiffness: [400, 500, 600, 60, 70, 80], initial: {position_x: 0.2, position_z: -0.3, rate_x: 5.0, rate_y: -4.0, rate_z: 7.0}";

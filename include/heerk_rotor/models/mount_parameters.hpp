@@ -8,7 +8,15 @@ namespace heerk_rotor {
 enum class MountMode { kRigid, kSpring2, kSpring6, kFree };
 
 /// Parameters of the mount (mount.hpp). Defaults: mass of a BO105 in flight (NASA CR-3144); its inertia and hub position are
-/// rounded values of that class; everything about springs and dampers is ASSUMED.
+/// rounded values of that class; everything about springs and dampers is ASSUMED. The default landing gear is stiff enough that all modes of the
+/// fuselage lie above 23 rad/s with 200 kg of rotor, clear of the regressing lag mode of such a rotor (15 rad/s): no ground resonance.
+///
+/// Keys are the names of the members, except
+///   mode (rigid | spring2 | spring6 | free); rotation (ccw | cw)
+///   shaft_tilt_forward_deg, heading_deg, pitch_deg, roll_deg: turned in this order about z, the new y, the new x (ROS: pitch nose down positive)
+///   inertia: [Ixx, Iyy, Izz], products_of_inertia: [Ixy, Ixz, Iyz] = integrals of x y dm, ...; off the diagonal the tensor has -Ixy, ...
+///   gear_preload (true | false): whether the springs carry gear_preload_mass (default: mass) in their zero position
+///   mass_x, mass_y, stiffness or frequency [rad/s], damping: of spring2, one number for both axes or [x, y]
 struct MountParameters {
   using Vector6 = Eigen::Matrix<double, 6, 1>;
 
@@ -30,8 +38,8 @@ struct MountParameters {
   double norm_feedback = 1.0;                          // by which the quaternion returns to unit length [1/s]
 
   // Landing gear (spring6), along the axes of the unloaded fuselage; x y z, then rotation about x y z
-  Vector6 gear_stiffness{(Vector6() << 6e5, 6e5, 1e6, 1.5e6, 6.5e5, 9e5).finished()};  // [N/m], [N m/rad]
-  Vector6 gear_damping{(Vector6() << 7e3, 7e3, 9e3, 9e3, 1.1e4, 1.2e4).finished()};    // near 10 % of critical [N s/m], [N m s/rad]
+  Vector6 gear_stiffness{(Vector6() << 2.5e6, 2.5e6, 2e6, 6e6, 8e6, 3e6).finished()};  // [N/m], [N m/rad]
+  Vector6 gear_damping{(Vector6() << 2e4, 2e4, 1.3e4, 3e4, 5e4, 2.2e4).finished()};    // near 10 % of critical [N s/m], [N m s/rad]
   Eigen::Vector3d gear_position{0.0, 0.0, -1.2};       // where the springs are attached, in base_link [m]
   double gear_preload_mass = 2096.0;                   // whose weight the springs carry in their zero position [kg]
 
