@@ -52,4 +52,9 @@ inline std::vector<std::string> wxyz(const std::string& prefix) { return signals
 
 inline Quaterniond quaternionOf(const Vector& wxyz) { return {wxyz[0], wxyz[1], wxyz[2], wxyz[3]}; }
 
+inline Quaterniond turn(double angle, const Vector3d& axis) { return Quaterniond(Eigen::AngleAxisd(angle, axis)); }
+
+/// Angle between two orientations.
+inline double angleBetween(const Quaterniond& a, const Quaterniond& b) { return 2.0 * (a.conjugate() * b).vec().norm(); }
+
 }  // namespace heerk_rotor::test
