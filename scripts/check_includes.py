@@ -17,10 +17,11 @@ ROOMS = {
     "integrate": {"core", "solve"},
     "models": {"core", "beam", "aero", "config"},
     "assembly": {"core", "solve", "integrate", "beam", "aero", "models", "config"},
+    "analysis": {"core", "solve", "integrate", "config", "assembly"},
     "realtime": {"core", "solve", "integrate", "assembly"},  # assembly: RotorReading is what travels through the rings
     "lcm": {"core", "solve", "integrate", "beam", "aero", "models", "config", "assembly", "realtime"},
     "ros": {"core", "solve", "integrate", "beam", "aero", "models", "config", "assembly", "realtime", "lcm"},
-    "tools": {"core", "solve", "integrate", "beam", "aero", "models", "config", "assembly", "realtime", "lcm", "ros"},
+    "tools": {"core", "solve", "integrate", "beam", "aero", "models", "config", "assembly", "analysis", "realtime", "lcm", "ros"},
 }
 
 # Headers from outside: pattern -> rooms that may include them. What matches nothing (Eigen, the standard library) is free.

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "heerk_rotor/assembly/start_file.hpp"
 #include "heerk_rotor/config/yaml_value.hpp"
 #include "heerk_rotor/core/coupling_graph.hpp"
 #include "heerk_rotor/core/nearest_name.hpp"
@@ -196,6 +197,9 @@ CoupledSystem buildSystem(const Configuration& configuration, const SimulationSe
   CouplingGraph graph = SystemBuilder(configuration, settings, problems).build();
   throwIfAny(problems);
   CoupledSystem system = std::move(graph).build();
+  StartValues start = readStart(configuration, system, problems);
+  throwIfAny(problems);
+  system.setStart(std::move(start.states), start.command);
   checkInitialState(configuration, system, problems);
   throwIfAny(problems);
   return system;

@@ -17,12 +17,12 @@ const char* const kStep = "simulation.step";
 const char* const kAzimuthStep = "simulation.azimuth_step_deg";
 
 void checkSections(const Document& document, Problems& problems) {
-  const std::vector<std::string> known = {"description", "simulation", "subsystems", "connections"};
+  const std::vector<std::string> known = {"description", "simulation", "trim", "subsystems", "connections"};
   for (const auto& entry : document.root) {
     const std::string& name = entry.first.Scalar();
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       problems.add({document.place(name), name, asWritten(entry.second),
-                    "one of the sections description, simulation, subsystems, connections" + didYouMean(name, known)});
+                    "one of the sections description, simulation, trim, subsystems, connections" + didYouMean(name, known)});
     } else if (name == "description" && !entry.second.IsScalar()) {
       problems.add({document.place(name), name, asWritten(entry.second), "text"});
     }
@@ -72,6 +72,7 @@ Configuration Configuration::parse(const std::string& text, const std::string& n
   for (const std::string& assignment : overrides) applyOverride(document, assignment, problems);
   if (step_was_clear) checkStep(document, problems);  // `--set simulation={...}` can bring both
   checkSections(document, problems);
+  embedStart(document, name, problems);
   if (!problems.empty()) throw ConfigurationError(problems);
 
   Configuration configuration;
@@ -81,6 +82,23 @@ Configuration Configuration::parse(const std::string& text, const std::string& n
 }
 
 std::string Configuration::where(const std::string& dotted_key) const { return document_->place(dotted_key); }
+
+Configuration Configuration::withStart(const std::string& start_text, const std::string& name) const {
+  Problems problems;
+  Document document = *document_;
+  document.root.reset(YAML::Clone(document_->root));
+  Document start = readDocument(start_text, name, problems);
+  if (!problems.empty()) throw ConfigurationError(problems);
+  for (const auto& subsystem : document.root["subsystems"]) {
+    YAML::Node parameters = subsystem.second;
+    if (parameters.IsMap()) parameters.remove("initial");
+  }
+  replaceStart(document, start);
+  Configuration configuration;
+  configuration.document_ = std::make_shared<const Document>(std::move(document));
+  configuration.file_ = file_;
+  return configuration;
+}
 
 std::string Configuration::resolvedText() const { return yamlText(document_->root); }
 

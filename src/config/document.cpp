@@ -11,6 +11,15 @@ namespace {
 constexpr int kMaxDepth = 32;          // far beyond any real configuration; an alias inside itself would go on for ever
 constexpr int kMaxValues = 100000;     // aliases of aliases can unfold to any size
 
+const char* const kSignalMapping = "trim.targets";  // the one mapping whose keys are names of signals, subsystem.name
+
+std::string join(const std::string& key, const std::string& name) { return key.empty() || name.empty() ? key + name : key + "." + name; }
+
+bool isSignalName(const std::string& name) {
+  const std::size_t dot = name.find('.');
+  return dot != std::string::npos && dot > 0 && dot + 1 < name.size() && name.find('.', dot + 1) == std::string::npos;
+}
+
 std::string lineOf(const std::string& name, const YAML::Mark& mark) {
   return mark.is_null() ? name : name + ":" + std::to_string(mark.line + 1);  // yaml-cpp counts from 0
 }
@@ -40,8 +49,8 @@ bool hasControlCharacters(const std::string& text, const std::string& name, Prob
 /// Copies the tree that yaml-cpp built, noting the place of every value and everything that must not be there.
 class Copier {
  public:
-  Copier(const std::string& name, Document& document, Problems& problems)
-      : name_(name), document_(document), problems_(problems) {}
+  Copier(const std::string& name, const std::string& at, Document& document, Problems& problems)
+      : name_(name), at_(at), document_(document), problems_(problems) {}
 
   YAML::Node copy(const YAML::Node& source, const std::string& key, int depth = 0) {
     if (exhausted_ || depth > kMaxDepth || ++values_ > kMaxValues) {
@@ -71,6 +80,10 @@ class Copier {
     std::map<std::string, std::string> seen;  // name -> place
     for (const auto& entry : source) {
       const std::string place = lineOf(name_, entry.first.Mark());
+      if (join(at_, key) == kSignalMapping && entry.first.IsScalar() && isSignalName(entry.first.Scalar())) {
+        copySignalValue(entry, key, result, seen, place, depth);
+        continue;
+      }
       const bool plain = entry.first.IsScalar() && !entry.first.Scalar().empty() && entry.first.Scalar().find('.') == std::string::npos;
       if (!plain) {
         problems_.add({place, key, asWritten(entry.first), "a name without dots as key"});
@@ -89,6 +102,29 @@ class Copier {
     return result;
   }
 
+  /// `rotor.thrust: 1.0` among names of signals stands for `rotor: {thrust: 1.0}`.
+  void copySignalValue(const YAML::detail::iterator_value& entry, const std::string& key, YAML::Node& result, std::map<std::string, std::string>& seen, const std::string& place, int depth) {
+    const std::string& signal = entry.first.Scalar();
+    const std::size_t dot = signal.find('.');
+    const std::string subsystem = signal.substr(0, dot), path = join(key, signal);
+    const auto inserted = seen.emplace(signal, place);
+    if (!inserted.second) {
+      problems_.add({place, path, asWritten(entry.second), "this key once; it is given already at " + inserted.first->second});
+      return;
+    }
+    if (seen.emplace(subsystem, place).second) {
+      result.force_insert(subsystem, YAML::Node(YAML::NodeType::Map));
+      document_.places[join(key, subsystem)] = place;
+    }
+    YAML::Node inner = findChild(result, subsystem);
+    if (!inner.IsMap()) {
+      problems_.add({place, path, asWritten(entry.second), "one way of writing the signals of " + subsystem});
+      return;
+    }
+    document_.places[path] = place;
+    inner.force_insert(signal.substr(dot + 1), copy(entry.second, path, depth + 1));
+  }
+
   YAML::Node copyList(const YAML::Node& source, const std::string& key, int depth) {
     YAML::Node result(YAML::NodeType::Sequence);
     result.SetStyle(source.Style());
@@ -102,6 +138,7 @@ class Copier {
   }
 
   const std::string& name_;
+  const std::string& at_;  // where the root of this text will be
   Document& document_;
   Problems& problems_;
   int values_ = 0;
@@ -121,7 +158,7 @@ std::string Document::place(const std::string& dotted_key) const {
   }
 }
 
-Document readDocument(const std::string& text, const std::string& name, Problems& problems) {
+Document readDocument(const std::string& text, const std::string& name, Problems& problems, const std::string& at) {
   Document document{YAML::Node(YAML::NodeType::Undefined), {{"", name}}};
   if (hasControlCharacters(text, name, problems)) return document;
   std::vector<YAML::Node> roots;
@@ -142,7 +179,7 @@ Document readDocument(const std::string& text, const std::string& name, Problems
     problems.add({lineOf(name, roots[1].Mark()), "", "a second YAML document", "one document"});
   }
   document.places[""] = lineOf(name, roots[0].Mark());
-  document.root.reset(Copier(name, document, problems).copy(roots[0], ""));
+  document.root.reset(Copier(name, at, document, problems).copy(roots[0], ""));
   return document;
 }
 

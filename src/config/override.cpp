@@ -46,7 +46,8 @@ void collectKeys(const YAML::Node& value, const std::string& key, std::vector<st
 
 /// The mappings that a file may leave out although their contents are known.
 bool mayBeCreated(const std::vector<std::string>& names) {
-  return (names.size() == 1 && names[0] == "simulation") || (names.size() == 3 && names[0] == "subsystems" && names[2] == "initial");
+  return (names.size() == 1 && (names[0] == "simulation" || names[0] == "trim")) || (names.size() == 2 && names[0] == "trim" && names[1] == "targets") ||
+         (names.size() == 3 && names[0] == "trim" && names[1] == "targets") || (names.size() == 3 && names[0] == "subsystems" && names[2] == "initial");
 }
 
 /// Says which existing key may be meant, when `name` does not exist within the value at `parent_key`.
@@ -97,7 +98,7 @@ void applyOverride(Document& document, const std::string& assignment, Problems& 
     return;
   }
   Problems inside;
-  const Document value = readDocument(written, place, inside);
+  const Document value = readDocument(written, place, inside, key);
   if (!inside.empty()) {
     const Problem& first = inside.list().front();
     const std::string found = written.empty() ? "(empty)" : shortened(written);

@@ -140,16 +140,24 @@ std::string Section::word(const std::string& key, const std::string& fallback, c
 
 std::vector<std::string> Section::words(const std::string& key) {
   const YAML::Node value = lookup(key);
+  if (!value.IsDefined() || value.IsNull()) return {};
+  if (value.IsScalar()) return {word(key, "")};
   std::vector<std::string> result;
-  if (!value.IsDefined()) return result;
-  const std::size_t size = value.IsSequence() ? value.size() : 1;
-  for (std::size_t i = 0; i < size; ++i) {
-    const YAML::Node element = value.IsSequence() ? value[i] : value;
-    if (element.IsScalar() && !element.Scalar().empty()) result.push_back(element.Scalar());
+  bool good = value.IsSequence();
+  for (std::size_t i = 0; good && i < value.size(); ++i) {
+    good = value[i].IsScalar() && !value[i].Scalar().empty();
+    if (good) result.push_back(value[i].Scalar());
   }
-  if (result.size() == size && size > 0) return result;
-  problem(key, "a word, or a list of words");
+  if (good) return result;
+  problem(key, "a list of words");
   return {};
+}
+
+std::vector<std::string> Section::keys() const {
+  std::vector<std::string> result;
+  if (node_.IsDefined() && node_.IsMap())
+    for (const auto& entry : node_) result.push_back(entry.first.Scalar());
+  return result;
 }
 
 std::string Section::text(const std::string& key) {

@@ -58,6 +58,7 @@ SimulationSettings readSimulationSettings(const Configuration& configuration, Pr
   settings.formulation = section.word("formulation", settings.formulation, {"absolute_lag", "printed"});
   readNewtonTolerance(configuration, section, settings);
   settings.duration = section.number("duration", settings.duration, "s", positive());
+  section.child("start");  // read where the system is known, see assembly/start_file.hpp
   section.finish();
   return settings;
 }

@@ -37,7 +37,28 @@ Vector CoupledSystem::initialState() const {
     }
     s.model->completeInitialState(In(u.data() + s.u_begin, s.u_size), Out(x.data() + s.x_begin, s.x_size));
   }
+  for (const auto& [entry, value] : start_) x[entry] = value;
   return x;
+}
+
+std::vector<std::string> CoupledSystem::stateNames() const {
+  std::vector<std::string> names;
+  for (const Subsystem& s : subsystems_)
+    for (const State& state : s.model->states()) names.push_back(s.name + "." + state.name);
+  return names;
+}
+
+std::vector<std::string> CoupledSystem::stateUnits() const {
+  std::vector<std::string> units;
+  for (const Subsystem& s : subsystems_)
+    for (const State& state : s.model->states()) units.push_back(state.unit);
+  return units;
+}
+
+void CoupledSystem::setStart(std::vector<std::pair<Index, double>> states, const Vector& command) {
+  if (command.size() != commandSize()) throw std::invalid_argument("CoupledSystem::setStart: " + std::to_string(command.size()) + " commands, expected " + std::to_string(commandSize()));
+  start_ = std::move(states);
+  default_command_ = command;
 }
 
 bool CoupledSystem::gather(Index number, const Vector& y, const Vector& w, Vector& u) const noexcept {

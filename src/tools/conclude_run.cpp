@@ -43,6 +43,9 @@ void reportFailure(const SimulateOptions& options, RunSetup& setup, const std::v
   }
 }
 
+/// The summary's object with further members in front.
+std::string withMembers(const std::string& members, const std::string& object) { return members.empty() ? object : "{" + members + ", " + object.substr(1); }
+
 bool print(const std::string& text) { return std::fputs(text.c_str(), stdout) >= 0 && std::fflush(stdout) == 0; }
 
 }  // namespace
@@ -88,7 +91,7 @@ int concludeRun(const SimulateOptions& options, RunSetup& setup, const std::vect
       outputFailed(summary, error.what());
     }
   }
-  const std::string report = options.json ? json(summary) : options.quiet ? "" : text(summary);
+  const std::string report = options.json ? withMembers(setup.json, json(summary)) : options.quiet ? "" : text(summary);
   if (!print(report)) outputFailed(summary, "the summary could not be written to the standard output");
   return exitStatus(summary.status, StopRequest::signal());
 }

@@ -10,6 +10,7 @@
 #include "heerk_rotor/assembly/build_simulation.hpp"
 #include "heerk_rotor/assembly/rotor_view.hpp"
 #include "heerk_rotor/assembly/snapshot.hpp"
+#include "heerk_rotor/assembly/start_file.hpp"
 
 namespace heerk_rotor {
 namespace {
@@ -43,9 +44,10 @@ RunSetup fresh(Configuration configuration) {
   std::unique_ptr<Simulation> simulation = buildSimulation(configuration);
   Problems problems;
   SimulationSettings settings = readSimulationSettings(configuration, problems);
+  std::vector<std::string> notes = readStart(configuration, simulation->system(), problems).notes;
   if (!problems.empty()) throw ConfigurationError(problems);
   Vector command = simulation->system().defaultCommand();
-  return {std::move(configuration), std::move(settings), std::move(simulation), std::move(command)};
+  return {std::move(configuration), std::move(settings), std::move(simulation), std::move(command), std::move(notes), ""};
 }
 
 /// What the user says the snapshot's configuration is; nothing said: nothing returned.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "heerk_rotor/tools/conclude_run.hpp"
+#include "heerk_rotor/tools/run_analyses.hpp"
 #include "heerk_rotor/tools/run_length.hpp"
 #include "heerk_rotor/tools/signal_selection.hpp"
 #include "heerk_rotor/tools/stop_request.hpp"
@@ -25,11 +26,9 @@ std::string unusedSignals(const SimulateOptions& options) {
   return used || options.signals.empty() ? "" : "--signals chooses the columns of .csv outputs; there is none";
 }
 
-int run(const SimulateOptions& options) {
+int run(const SimulateOptions& options, RunSetup& setup) {
   // Everything that can be wrong shows here, before any file is written.
-  RunSetup setup = setUpRun(options);
   Simulation& simulation = *setup.simulation;
-  if (options.list_signals) return print(signalTable(simulation.system()));
   const std::vector<Signal> signals = selectSignals(simulation.system(), options.signals);
   const RunLength length = runLength(options, setup.settings, simulation.stepSize());
   std::optional<CommandSchedule> commands;
@@ -49,12 +48,23 @@ int run(const SimulateOptions& options) {
   return concludeRun(options, setup, signals, companions, summary);
 }
 
+int analyseAndRun(const SimulateOptions& options) {
+  RunSetup setup = setUpRun(options);
+  if (options.list_signals) return print(signalTable(setup.simulation->system()));
+  for (const std::string& note : setup.notes) warn(options, note);
+  const Analyses analyses = runAnalyses(options, setup);
+  if (!analyses.run) return std::max(analyses.status, print(options.json ? "{" + analyses.json + "}\n" : analyses.text));
+  if (!options.json && print(analyses.text) != 0) return 1;
+  setup.json = analyses.json;
+  return run(options, setup);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
     const SimulateOptions options = parseSimulateOptions(argc, argv);
-    return options.help.empty() ? run(options) : print(options.help);
+    return options.help.empty() ? analyseAndRun(options) : print(options.help);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "simulate: %s\n", error.what());
     return 2;

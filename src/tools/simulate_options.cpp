@@ -17,8 +17,9 @@ namespace {
 const char* const kFooter =
     "FILE ends in .csv (signals), .bag (the node's topics) or .lcm (event log of ROTOR_STATE). Row 0 is the initial instant.\n"
     "All values are SI and radians. Exit status: 0 done; 1 an output could not be written completely; 2 bad command line or\n"
-    "configuration; 3 the solution became non-finite or the solver stalled (the last revolution before it is written to\n"
+    "configuration; 3 no trim was found, the solution became non-finite or the solver stalled (the last revolution before it is written to\n"
     "OUTPUT.failure.csv); 128 + signal number when interrupted (130 after Ctrl-C), with everything recorded until then.\n"
+    "After --trim or --stability a run follows only when one of --duration, --revolutions, --output, --save-snapshot asks for it.\n"
     "Example: simulate config/lag_rotor.yaml --set subsystems.mast.stiffness=3e6 --duration 10 --output lag.csv";
 
 /// Words of the command line before they mean anything.
@@ -39,6 +40,9 @@ void declare(CLI::App& app, SimulateOptions& options, Words& words) {
       ->type_name("FILE.csv");
   app.add_option("--save-snapshot", options.save_snapshot, "write the final state, to be continued later")->type_name("FILE");
   app.add_option("--load-snapshot", options.load_snapshot, "continue from a snapshot; CONFIG may be left out")->type_name("FILE");
+  app.add_flag("--trim", options.trim, "find the periodic motion and controls that the section trim asks for; a run goes on from there");
+  app.add_option("--save-start", options.save_start, "with --trim: write the trimmed start, loaded by the key simulation.start")->type_name("FILE.yaml");
+  app.add_flag("--stability", options.stability, "eigenvalues of the map of one step at the start");
   app.add_flag("--list-signals", options.list_signals, "print name, unit and meaning of every signal and stop");
   app.add_flag("--json", options.json, "print the summary of the run as one JSON object");
   app.add_flag("--quiet", options.quiet, "no progress bar, no summary, no warnings");
@@ -125,6 +129,7 @@ void checkFiles(const SimulateOptions& options, Problems& problems) {
     if (!outputKind(file)) problems.add({"command line", "--output", file, "a name that ends in .csv, .bag or .lcm"});
     claim("--output", file);
   }
+  if (!options.save_start.empty()) claim("--save-start", options.save_start);
   // A snapshot may replace the one the run started from: it is read before and written atomically.
   if (!options.save_snapshot.empty()) claim("--save-snapshot", options.save_snapshot);
   if (!options.load_snapshot.empty())
@@ -163,6 +168,9 @@ SimulateOptions parseSimulateOptions(int argc, const char* const* argv) {
   if (options.configuration.empty() && options.load_snapshot.empty() && problems.empty())
     problems.add({"command line", "CONFIG", "nothing", "a configuration file, or --load-snapshot FILE; see --help"});
 
+  if (!options.save_start.empty() && !options.trim) problems.add({"command line", "--save-start", options.save_start, "--trim, whose result it writes"});
+  if ((options.trim || options.stability) && !options.load_snapshot.empty())
+    problems.add({"command line", options.trim ? "--trim" : "--stability", "", "a start at model time 0, not --load-snapshot"});
   options.duration = readNumber(words.duration, "--duration", "[s]", problems);
   options.revolutions = readNumber(words.revolutions, "--revolutions", "[revolutions]", problems);
   if (!words.duration.empty() && !words.revolutions.empty())

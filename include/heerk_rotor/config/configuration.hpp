@@ -23,13 +23,17 @@ class Configuration {
   /// The same from text; `name` stands for the file in messages.
   static Configuration parse(const std::string& text, const std::string& name, const std::vector<std::string>& overrides = {});
 
+  /// The same configuration started from other values: `start_text` (see assembly/start_file.hpp) becomes simulation.start
+  /// and every subsystem's `initial` is dropped, since it would take precedence.
+  Configuration withStart(const std::string& start_text, const std::string& name) const;
+
   const YAML::Node& root() const { return document_->root; }
   const std::string& file() const { return file_; }
 
   /// "file:line" of a key, or "--set key" when it was overridden; of the nearest ancestor when the key is absent.
   std::string where(const std::string& dotted_key) const;
 
-  /// The configuration as YAML text with all overrides in it: parsing it again gives the same configuration.
+  /// The configuration as YAML text with the start file and all overrides in it: parsing it again gives the same configuration.
   std::string resolvedText() const;
 
  private:

@@ -40,8 +40,10 @@ class Section {
   long integer(const std::string& key, long fallback, long low, long high);
   bool flag(const std::string& key, bool fallback);
   std::string word(const std::string& key, const std::string& fallback, const std::vector<std::string>& allowed = {});
-  /// A list of any length of at least one word; a single word is a list of one. Empty when absent or after a problem.
+  /// A list of words; one word alone is a list of one.
   std::vector<std::string> words(const std::string& key);
+  /// The keys that are there, in order; does not make them known.
+  std::vector<std::string> keys() const;
   /// The value as written ("" when absent), for keys that take a number or a word; never a problem.
   std::string text(const std::string& key);
   /// A nested mapping; empty when absent. The caller must finish() it.

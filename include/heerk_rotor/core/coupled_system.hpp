@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "heerk_rotor/core/subsystem_model.hpp"
@@ -72,8 +73,16 @@ class CoupledSystem {
   const Vector& commandLow() const { return command_low_; }
   const Vector& commandHigh() const { return command_high_; }
 
-  /// x at t0: declared initial values, then each model's completeInitialState in order.
+  /// x at t0: declared initial values, then each model's completeInitialState in order, then what setStart() says.
   Vector initialState() const;
+
+  /// Names "subsystem.state" and units of all entries of x.
+  std::vector<std::string> stateNames() const;
+  std::vector<std::string> stateUnits() const;
+
+  /// Start values found elsewhere (a trimmed state): entries of x that hold as they are, whatever initial values were
+  /// declared, and the command (commandSize()) that is the default from now on.
+  void setStart(std::vector<std::pair<Index, double>> states, const Vector& command);
 
   /// Sums the sources of one input port into u. Returns whether any entry changed (bitwise).
   bool gather(Index input, const Vector& y, const Vector& w, Vector& u) const noexcept;
@@ -91,6 +100,7 @@ class CoupledSystem {
   std::vector<Input> inputs_;
   std::vector<Signal> signals_;
   Vector declared_initial_;
+  std::vector<std::pair<Index, double>> start_;
   std::vector<std::string> command_names_;
   Vector default_command_, command_low_, command_high_;
   Index x_size_ = 0, u_size_ = 0, y_size_ = 0;

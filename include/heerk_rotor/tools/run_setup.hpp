@@ -16,7 +16,9 @@ struct RunSetup {
   Configuration configuration;
   SimulationSettings settings;
   std::unique_ptr<Simulation> simulation;
-  Vector command;  // w in effect at the start: of the snapshot, otherwise the defaults
+  Vector command;                  // w in effect at the start: of the snapshot, otherwise the defaults
+  std::vector<std::string> notes;  // about the start file
+  std::string json;                // members that analyses before the run add to its summary
 };
 
 /// Builds it from CONFIG and --set, or from a snapshot, whose configuration CONFIG and --set must then agree with (only

@@ -17,6 +17,8 @@ struct SimulateOptions {
   std::uint64_t every = 1;              // record every N-th step
   std::string commands;                 // CSV file of commands, or ""
   std::string save_snapshot, load_snapshot;
+  bool trim = false, stability = false;
+  std::string save_start;               // with trim: start file to write, or ""
   bool json = false, quiet = false, list_signals = false;
   std::string help;                     // not empty: print it and do nothing else
 };

@@ -1,0 +1,28 @@
+#include "heerk_rotor/analysis/stability.hpp"
+
+#include <stdexcept>
+
+#include "heerk_rotor/analysis/trim.hpp"
+
+namespace heerk_rotor {
+
+Stability stepStability(const std::function<std::unique_ptr<Simulation>()>& build, const Vector& x, const Vector& w, const Vector& scales, unsigned threads) {
+  const MapTeam maps = makeTeam(build, 1, {}, threads);
+  // Wider than over a revolution: a single step is nearly linear, and 1e-9 of an eigenvalue is wanted.
+  DifferenceOptions options;
+  options.width = 1e-4;
+  options.central = true;
+  const MapGradient gradient = differenceMap(maps, x, w, {}, {scales, Vector(), Vector()}, options);
+  if (!gradient.complete) throw std::runtime_error("stability: a step from a slightly changed state failed");
+  return floquetStability(gradient.scaled, maps.front()->period(), maps.front()->system().stateNames());
+}
+
+Stability floquetStability(const Matrix& monodromy, double period, const std::vector<std::string>& state_names) {
+  Stability stability;
+  stability.period = period;
+  stability.modes = multipliers(monodromy, period, state_names);
+  if (!stability.modes.empty()) stability.spectral_radius = std::abs(stability.modes.front().mu);
+  return stability;
+}
+
+}  // namespace heerk_rotor
