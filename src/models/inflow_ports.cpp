@@ -18,6 +18,8 @@ std::vector<OutputPort> inflowOutputs(std::vector<std::string> feedthrough) {
            {"inflow_mean", "inflow_sine", "inflow_cosine"}, true}};
 }
 
+double readInducedPowerFactor(Section& section) { return section.number("induced_power_factor", 1.0, "-", {0.5, 2.0, false}); }
+
 WindAxes::WindAxes(double forward, double left) noexcept
     : mu(std::hypot(forward, left)), cosine(mu > 0.0 ? forward / mu : 1.0), sine(mu > 0.0 ? left / mu : 0.0) {}
 

@@ -16,5 +16,10 @@ Made makeElasticMast(Section& section, const BuildContext& context);
 Made makeRigidMast(Section& section, const BuildContext& context);
 Made makeDrive(Section& section, const BuildContext& context);
 Made makeSwashplate(Section& section, const BuildContext& context);
+Made makeUniformInflow(Section& section, const BuildContext& context);
+Made makeDreesInflow(Section& section, const BuildContext& context);
+Made makePittPetersInflow(Section& section, const BuildContext& context);
+Made makeGovernedDrive(Section& section, const BuildContext& context);
+Made makeRotorCoefficients(Section& section, const BuildContext& context);
 
 }  // namespace heerk_rotor

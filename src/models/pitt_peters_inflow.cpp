@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "heerk_rotor/models/inflow_ports.hpp"
+#include "model_factories.hpp"
 
 namespace heerk_rotor {
 namespace {
@@ -49,6 +50,15 @@ void PittPetersInflow::evalDerivatives(double, const In& x, const In& u, Out xdo
   const double sine_rate = rate * (sine_load - mass_flow * sine_balance) / harmonic_mass;
   const double cosine_rate = rate * (cosine_load - mass_flow * cosine_balance) / harmonic_mass;
   wind.toHub(sine_rate, cosine_rate, xdot[1], xdot[2]);
+}
+
+Made makePittPetersInflow(Section& section, const BuildContext& context) {
+  PittPetersInflow::Parameters p;
+  p.rotor_speed = context.simulation.rotor_speed;
+  p.induced_power_factor = readInducedPowerFactor(section);
+  p.corrected_mass = section.flag("corrected_mass", p.corrected_mass);
+  section.finish();
+  return std::make_unique<PittPetersInflow>(p);
 }
 
 }  // namespace heerk_rotor

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "heerk_rotor/models/inflow_ports.hpp"
+#include "model_factories.hpp"
 
 namespace heerk_rotor {
 
@@ -25,6 +26,27 @@ void DreesInflow::evalOutput(Index, double, const In&, const In& u, Out y) noexc
   const double cosine_wind = mean * 4.0 / 3.0 * (halfSkewTangent(wind.mu, through) - 1.8 * wind.mu * total);
   y[0] = mean;
   wind.toHub(-2.0 * wind.mu * mean, cosine_wind, y[1], y[2]);
+}
+
+namespace {
+
+/// One line, `type`, swaps the inflow models: the key of pitt_peters_inflow is accepted without effect.
+void acceptDynamicInflowKeys(Section& section) { section.flag("corrected_mass", false); }
+
+}  // namespace
+
+Made makeUniformInflow(Section& section, const BuildContext&) {
+  const double kappa = readInducedPowerFactor(section);
+  acceptDynamicInflowKeys(section);
+  section.finish();
+  return std::make_unique<UniformInflow>(kappa);
+}
+
+Made makeDreesInflow(Section& section, const BuildContext&) {
+  const double kappa = readInducedPowerFactor(section);
+  acceptDynamicInflowKeys(section);
+  section.finish();
+  return std::make_unique<DreesInflow>(kappa);
 }
 
 }  // namespace heerk_rotor

@@ -31,6 +31,8 @@ std::vector<std::string> furtherParameters(const std::string& type) {
       {"mount", {", mode: rigid", ", mode: rigid, rotation: cw", ", mode: spring2", ", mode: spring2, rotation: cw", ", mode: spring6", ", mode: spring6, rotation: cw",
                  ", mode: free, rotation: cw"}},
       {"blade_airloads", {", virtual_mass: true", ", kinematics: small_angle"}},
+      {"governed_drive", {", governor: false, engine_torque: 300.0"}},
+      {"pitt_peters_inflow", {", induced_power_factor: 1.15, corrected_mass: true"}},
       {"swashplate", {", blades: 5, phase_deg: 20.0, delta3_deg: -15.0"}}};
   const auto found = parameters.find(type);
   return found == parameters.end() ? std::vector<std::string>{} : found->second;

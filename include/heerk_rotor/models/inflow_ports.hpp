@@ -1,4 +1,5 @@
 #pragma once
+#include "heerk_rotor/config/section.hpp"
 #include "heerk_rotor/core/subsystem_model.hpp"
 
 namespace heerk_rotor {
@@ -12,6 +13,9 @@ namespace heerk_rotor {
 /// Output: inflow (l0, l1s, l1c).
 std::vector<InputPort> inflowInputs();
 std::vector<OutputPort> inflowOutputs(std::vector<std::string> feedthrough);
+
+/// The key induced_power_factor, kappa: multiplies the induced flow that given loads hold in balance.
+double readInducedPowerFactor(Section& section);
 
 enum InflowInput { kThrustCoefficient, kSineCoefficient, kCosineCoefficient, kMuForward, kMuLeft, kMuUp };
 

@@ -11,6 +11,7 @@ class UniformInflow : public SubsystemModel {
   explicit UniformInflow(double induced_power_factor) : kappa_(induced_power_factor) {}
 
   std::vector<State> states() const override { return {}; }
+  std::vector<std::string> ignoredInitialValues() const override { return {"mean", "sine", "cosine"}; }  // of pitt_peters_inflow
   std::vector<InputPort> inputs() const override;
   std::vector<OutputPort> outputs() const override;
   void evalOutput(Index port, double t, const In& x, const In& u, Out y) noexcept override;
@@ -27,6 +28,7 @@ class DreesInflow : public SubsystemModel {
   explicit DreesInflow(double induced_power_factor) : kappa_(induced_power_factor) {}
 
   std::vector<State> states() const override { return {}; }
+  std::vector<std::string> ignoredInitialValues() const override { return {"mean", "sine", "cosine"}; }  // of pitt_peters_inflow
   std::vector<InputPort> inputs() const override;
   std::vector<OutputPort> outputs() const override;
   void evalOutput(Index port, double t, const In& x, const In& u, Out y) noexcept override;
