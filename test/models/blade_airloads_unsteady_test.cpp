@@ -1,6 +1,8 @@
 // Unsteady lift of one section through the model, against thin airfoil theory.
 #include <complex>
 
+#include <Eigen/Geometry>
+
 #include "heerk_rotor/aero/unsteady_lift.hpp"
 #include "models/blade_airloads_rig.hpp"
 
@@ -182,6 +184,62 @@ TEST(BladeAirloadsUnsteady, steadyConingHasNoApparentMass) {
     for (Index k = 0; k < 4; ++k) {
       const double r = with.sections.r[j], apparent = 0.25 * M_PI * kRho * kChord * kChord * with.sections.width[j] * kOmega * kOmega * r * beta;
       EXPECT_LT((with.loadOf(a, j, k) - without.loadOf(b, j, k)).head(3).norm(), 1e-12 * apparent);
+    }
+}
+
+/// What a section does in any flight, as vectors in R_k.
+struct Attitude {
+  Attitude(AirloadsRig& rig, Index j, Index k) {
+    for (Index c = 0; c < 3; ++c) {
+      t[c] = rig.at("section_axes", j, c, 6, k);
+      n[c] = rig.at("section_axes", j, 3 + c, 6, k);
+      velocity[c] = rig.at("section_velocity", j, c, 3, k);
+    }
+    const double psi = rig.azimuth(k), *rates = rig.port("mount_velocity") + 3, *wind = rig.port("hub_wind"), *inflow = rig.port("inflow");
+    Eigen::Matrix3d hub_to_blade;
+    hub_to_blade << -std::cos(psi), -std::sin(psi), 0, std::sin(psi), -std::cos(psi), 0, 0, 0, 1;
+    const double r = rig.sections.r[j] / rig.sections.radius;
+    const double lambda = inflow[0] + r * (inflow[1] * std::sin(psi) + inflow[2] * std::cos(psi));
+    through_air = velocity - hub_to_blade * Eigen::Vector3d(wind[0], wind[1], wind[2]) + lambda * kOmega * rig.sections.radius * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d turn = hub_to_blade * Eigen::Vector3d(rates[0], rates[1], rates[2] + rig.port("hub_motion")[1]);
+    pitch = rig.at("section_pitch", j, 0, 1, k);
+    pitch_rate = rig.at("section_pitch_rate", j, 0, 1, k) + turn.dot(t.cross(n));
+  }
+  Eigen::Vector3d t, n, velocity, through_air;
+  double pitch, pitch_rate;  // relative to space, about the span
+};
+
+TEST(BladeAirloadsUnsteady, rateAboutTheSpanIncludesHubAndMountInAnyAttitude) {
+  AirloadsRig rear(rotorOf(5), "    angle_of_attack_point: three_quarter_chord\n");
+  rear.randomize(8);
+  const Vector angles = rear.output("angle_of_attack");
+  for (Index j = 0; j < 3; ++j)
+    for (Index k = 0; k < 5; ++k) {
+      const Attitude at(rear, j, k);
+      const double up = at.through_air.dot(at.n) - 0.5 * kChord * at.pitch_rate;
+      EXPECT_NEAR(angles[sectionEntry(j, 0, 1, k, 5)], at.pitch - std::atan2(up, at.through_air.dot(at.t)), 1e-14);
+    }
+}
+
+TEST(BladeAirloadsUnsteady, apparentMassActsAlongTheNormalOfThePitchedChord) {
+  AirloadsRig with(rotorOf(3), kThin + "    virtual_mass: true\n"), without(rotorOf(3), kThin);
+  with.randomize(6);
+  for (const InputPort& port : without.inputs) std::copy_n(with.port(port.name), port.size, without.port(port.name));
+  const Vector a = with.output("section_loads"), b = without.output("section_loads");
+  for (Index j = 0; j < 3; ++j)
+    for (Index k = 0; k < 3; ++k) {
+      const Attitude at(with, j, k);
+      for (Index c = 0; c < 3; ++c) with.at("section_acceleration", j, c, 3, k) = 300.0 * static_cast<double>(c + j - k) + 100.0;
+      const Vector loads = with.output("section_loads");
+      const Eigen::Vector3d normal = std::cos(at.pitch) * at.n - std::sin(at.pitch) * at.t, chord = -std::cos(at.pitch) * at.t - std::sin(at.pitch) * at.n;
+      const Eigen::Vector3d acceleration(with.at("section_acceleration", j, 0, 3, k), with.at("section_acceleration", j, 1, 3, k), with.at("section_acceleration", j, 2, 3, k));
+      const double mass = 0.25 * M_PI * kRho * kChord * kChord * with.sections.width[j];
+      const double inertial = -mass * acceleration.dot(normal), turning = mass * -at.through_air.dot(chord) * at.pitch_rate;
+      const Eigen::Vector4d added = with.loadOf(loads, j, k) - without.loadOf(b, j, k);
+      // Differences of loads some times larger.
+      const double scale = 1e-12 * with.loadOf(a, j, k).norm();
+      EXPECT_LT((added.head(3) - (inertial + turning) * normal).norm(), scale + 1e-12 * mass * acceleration.norm());
+      EXPECT_NEAR(added[3], -kChord * (0.25 * inertial + 0.5 * turning), scale + 1e-12 * mass * acceleration.norm());
     }
 }
 
