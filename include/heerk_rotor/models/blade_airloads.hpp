@@ -33,7 +33,8 @@ namespace heerk_rotor {
 /// section_axes, section_pitch; section_pitch_rate if the point of the angle of attack is not the elastic axis or with virtual_mass;
 /// section_acceleration (inertial, without gravity) with virtual_mass. Further hub_motion, mount_velocity, hub_wind, inflow.
 /// Outputs: section_loads (for the fe_rotor), rotor_loads and hub_flow (for inflow models), angle_of_attack, mach.
-/// States: none, or with `unsteady` lag_1, lag_2 per section and blade; zero initial values mean steady lift.
+/// States: none, or with `unsteady` lag_<section>_<1 or 2>_<blade>; zero initial values mean steady lift.
+/// Tip loss is the factor B. (Prandtl's factor divides the inflow of one annulus; it does not fit an inflow given for the whole disc.)
 /// Valid: attached flow and stall as the polar has it; no dynamic stall, no yawed flow, Mach up to the table's end.
 class BladeAirloads : public SubsystemModel {
  public:
