@@ -27,6 +27,9 @@ std::vector<System> systems() {
           {"rigid_mast", file("lag_rotor.yaml", {"subsystems.mast={type: rigid_mast}"}), 1e-2},
           {"controlled", file("lag_rotor_controlled.yaml", {disturbed}), 2e-4},
           {"controlled_printed", file("lag_rotor_controlled.yaml", {disturbed, "simulation.formulation=printed"}), 2e-4},
+          // The lag rotor does not yaw, so the engine's torque on its fuselage needs no connection to be right for this test.
+          {"governed", file("lag_rotor_controlled.yaml", {disturbed, "subsystems.drive={type: governed_drive, inertia: 300.0, engine_torque: 9700.0, max_torque: 16000.0}",
+                                                          "connections.5=[mast.torque, drive.mast_torque]"}), 2e-4},
           {"monolithic", [](const Overrides& more) {
              return Configuration::parse("simulation: {rotor_speed: 6.63, step: 1.0e-3}\nsubsystems:\n"
                                          "  rotor: {type: monolithic_lag_rotor, mast_stiffness: 3.0e+4, initial: {lag_1: 0.01}}\n", "monolithic", more);
