@@ -21,6 +21,9 @@ std::vector<System> systems() {
   const auto file = [](const std::string& name, const Overrides& fixed) {
     return [name, fixed](const Overrides& more) { return shipped(name, fixed + more); };
   };
+  const auto elastic = [&](const Overrides& fixed) {
+    return file("bo105.yaml", Overrides{"subsystems.rotor.modes=6", "subsystems.airloads.polar=linear", "subsystems.rotor.sections=5"} + fixed);
+  };
   const std::string disturbed = "subsystems.rotor.initial={lag_1: -0.03, lag_2: -0.04, lag_3: -0.03, lag_4: -0.04}";
   return {{"lag_rotor", file("lag_rotor.yaml", {}), 1e-3},
           {"lag_rotor_printed", file("lag_rotor.yaml", {"simulation.formulation=printed"}), 1e-3},
@@ -30,6 +33,10 @@ std::vector<System> systems() {
           // The lag rotor does not yaw, so the engine's torque on its fuselage needs no connection to be right for this test.
           {"governed", file("lag_rotor_controlled.yaml", {disturbed, "subsystems.drive={type: governed_drive, inertia: 300.0, engine_torque: 9700.0, max_torque: 16000.0}",
                                                           "connections.5=[mast.torque, drive.mast_torque]"}), 2e-4},
+          // The elastic rotor with the modes that HERK4 can resolve, and smooth airloads.
+          {"elastic_rotor", elastic({}), 1e-4},
+          {"elastic_rotor_drees", elastic({"subsystems.inflow.type=drees_inflow", "subsystems.mast.type=rigid_mast", "subsystems.fuselage.mode=free"}), 1e-4},
+          {"elastic_rotor_uniform", elastic({"subsystems.inflow.type=uniform_inflow", "subsystems.fuselage.mode=spring2", "subsystems.fuselage.mass=1972.4"}), 1e-4},
           {"monolithic", [](const Overrides& more) {
              return Configuration::parse("simulation: {rotor_speed: 6.63, step: 1.0e-3}\nsubsystems:\n"
                                          "  rotor: {type: monolithic_lag_rotor, mast_stiffness: 3.0e+4, initial: {lag_1: 0.01}}\n", "monolithic", more);
