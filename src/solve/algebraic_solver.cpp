@@ -370,7 +370,8 @@ AlgebraicSolver::AlgebraicSolver(CoupledSystem& system, const SolverOptions& opt
   for (std::size_t l = 0; l < s.pruned.size(); ++l) {
     const Loop& loop = s.current(l);
     s.infos.push_back({loop.plan.outputs, static_cast<Index>(s.plan.full[l].unknowns.size()), loop.plan.unknowns,
-                       loop.plan.gradient.nonzeros(), loop.lu.factorNonzeros()});
+                       loop.plan.gradient.nonzeros(), loop.lu.factorNonzeros(), loop.plan.gradient,
+                       loop.plan.unknowns.empty() ? SparsityPattern() : loop.lu.factorPattern()});
   }
   if (report.status == SolveStatus::kConverged) return;
   std::string ports;

@@ -98,6 +98,23 @@ bool SparseLu::factorize(const std::vector<double>& values) noexcept {
   return smallest_pivot > kSingularRatio * largest_pivot;
 }
 
+SparsityPattern SparseLu::factorPattern() const {
+  const auto n = static_cast<std::size_t>(pattern_.size);
+  std::vector<Index> step_of_row(n);
+  for (std::size_t k = 0; k < n; ++k) step_of_row[static_cast<std::size_t>(pivot_row_[k])] = static_cast<Index>(k);
+  SparsityPattern result;
+  result.size = pattern_.size;
+  result.start.push_back(0);
+  for (std::size_t k = 0; k < n; ++k) {
+    for (Index p = u_start_[k]; p < u_start_[k + 1]; ++p) result.rows.push_back(u_steps_[static_cast<std::size_t>(p)]);
+    result.rows.push_back(static_cast<Index>(k));
+    for (Index p = l_start_[k]; p < l_start_[k + 1]; ++p) result.rows.push_back(step_of_row[static_cast<std::size_t>(l_rows_[static_cast<std::size_t>(p)])]);
+    std::sort(result.rows.begin() + result.start.back(), result.rows.end());
+    result.start.push_back(result.nonzeros());
+  }
+  return result;
+}
+
 void SparseLu::solve(double* b) noexcept {
   const Index n = pattern_.size;
   // Forward: work_[k] = component of L^{-1} P b at step k; b is indexed by rows until then.

@@ -1,10 +1,14 @@
 #include "heerk_rotor/tools/run_analyses.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
 #include "heerk_rotor/analysis/analysis_report.hpp"
+#include "heerk_rotor/analysis/coupling_picture.hpp"
+#include "heerk_rotor/analysis/coupling_report.hpp"
+#include "heerk_rotor/analysis/evaluation_counts.hpp"
 #include "heerk_rotor/analysis/scales.hpp"
 #include "heerk_rotor/assembly/build_simulation.hpp"
 #include "heerk_rotor/assembly/file_replacement.hpp"
@@ -53,6 +57,22 @@ void addStability(Analyses& analyses, const std::string& key, const Stability& s
   append(analyses, key, json(stability, setup.settings.revolution()));
 }
 
+void showCoupling(const SimulateOptions& options, const RunSetup& setup, Analyses& analyses) {
+  CoupledSystem system = buildSystem(setup.configuration);
+  const Coupling coupling = analyseCoupling(system);
+  analyses.text += couplingText(system, coupling);
+  if (!options.show_coupling->empty()) replaceFile(*options.show_coupling, couplingPicture(system, coupling));
+  append(analyses, "coupling", couplingJson(system, coupling));
+}
+
+void countEvaluations(const RunSetup& setup, Analyses& analyses) {
+  const auto simulation = buildSimulation(setup.configuration);
+  const long steps = std::max(1l, std::lround(setup.settings.revolution() / setup.settings.step));
+  const EvaluationCounts counts = countEvaluations(*simulation, setup.command, steps);
+  analyses.text += text(counts);
+  append(analyses, "evaluations", json(counts));
+}
+
 /// Typical magnitudes of the states: over a revolution where the step divides it, otherwise at this instant.
 Vector scalesAt(const Configuration& configuration, const RunSetup& setup, const Vector& x) {
   Vector states = x.cwiseAbs(), outputs;
@@ -70,9 +90,12 @@ Analyses runAnalyses(const SimulateOptions& options, RunSetup& setup) {
   Problems problems;
   const TrimSettings settings = readTrimSettings(setup.configuration, setup.simulation->system(), problems);
   if (!problems.empty()) throw ConfigurationError(problems);
-  const bool asked = options.trim || options.stability;
+  const bool asked = options.trim || options.stability || options.show_coupling || options.evaluation_counts;
   analyses.run = !asked || options.duration || options.revolutions || !options.outputs.empty() || !options.save_snapshot.empty();
   if (!asked) return analyses;
+  if (options.show_coupling) showCoupling(options, setup, analyses);
+  if (options.evaluation_counts) countEvaluations(setup, analyses);
+  if (!options.trim && !options.stability) return analyses;
 
   const Vector start = setup.simulation->state();
   const Configuration configuration = forAnalysis(setup);

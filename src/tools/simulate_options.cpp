@@ -24,7 +24,7 @@ const char* const kFooter =
 
 /// Words of the command line before they mean anything.
 struct Words {
-  std::string duration, revolutions, every, signals;
+  std::string duration, revolutions, every, signals, coupling;
 };
 
 void declare(CLI::App& app, SimulateOptions& options, Words& words) {
@@ -43,6 +43,9 @@ void declare(CLI::App& app, SimulateOptions& options, Words& words) {
   app.add_flag("--trim", options.trim, "find the periodic motion and controls that the section trim asks for; a run goes on from there");
   app.add_option("--save-start", options.save_start, "with --trim: write the trimmed start, loaded by the key simulation.start")->type_name("FILE.yaml");
   app.add_flag("--stability", options.stability, "eigenvalues of the map of one step at the start");
+  app.add_option("--show-coupling", words.coupling, "print subsystems, connections, loops and their sparsity; draw them into a picture")
+      ->type_name("[FILE.svg]")->expected(0, 1);
+  app.add_flag("--evaluation-counts", options.evaluation_counts, "evaluations of f and g per step and subsystem, over one revolution");
   app.add_flag("--list-signals", options.list_signals, "print name, unit and meaning of every signal and stop");
   app.add_flag("--json", options.json, "print the summary of the run as one JSON object");
   app.add_flag("--quiet", options.quiet, "no progress bar, no summary, no warnings");
@@ -171,6 +174,7 @@ SimulateOptions parseSimulateOptions(int argc, const char* const* argv) {
   if (!options.save_start.empty() && !options.trim) problems.add({"command line", "--save-start", options.save_start, "--trim, whose result it writes"});
   if ((options.trim || options.stability) && !options.load_snapshot.empty())
     problems.add({"command line", options.trim ? "--trim" : "--stability", "", "a start at model time 0, not --load-snapshot"});
+  if (app.count("--show-coupling") > 0) options.show_coupling = words.coupling;
   options.duration = readNumber(words.duration, "--duration", "[s]", problems);
   options.revolutions = readNumber(words.revolutions, "--revolutions", "[revolutions]", problems);
   if (!words.duration.empty() && !words.revolutions.empty())

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "heerk_rotor/core/coupled_system.hpp"
+#include "heerk_rotor/solve/sparse_lu.hpp"
 
 namespace heerk_rotor {
 
@@ -40,6 +41,8 @@ struct LoopInfo {
   std::vector<Index> unknowns;   // global y entries that are iterated
   Index gradient_nonzeros = 0;   // of I - dg/dy on the unknowns
   Index factor_nonzeros = 0;     // of L + U
+  SparsityPattern gradient;      // of I - dg/dy on the unknowns
+  SparsityPattern factors;       // of L + U, in the order of elimination
 };
 
 /// Solves y = g(t, x, u(y, w)) for the coupled system: ports outside loops once, in order of dependency; ports in

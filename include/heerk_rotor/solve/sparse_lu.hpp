@@ -28,6 +28,9 @@ class SparseLu {
   /// Nonzeros of L (without unit diagonal) and U after the last factorisation.
   Index factorNonzeros() const { return l_used_ + u_used_; }
 
+  /// Nonzeros of L + U after the last factorisation, rows and columns in the order of elimination.
+  SparsityPattern factorPattern() const;
+
  private:
   SparsityPattern pattern_;
   std::vector<Index> column_order_;   // (n) column that is eliminated at step k

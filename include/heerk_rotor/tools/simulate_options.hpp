@@ -18,6 +18,8 @@ struct SimulateOptions {
   std::string commands;                 // CSV file of commands, or ""
   std::string save_snapshot, load_snapshot;
   bool trim = false, stability = false;
+  std::optional<std::string> show_coupling;  // picture to write, or ""
+  bool evaluation_counts = false;
   std::string save_start;               // with trim: start file to write, or ""
   bool json = false, quiet = false, list_signals = false;
   std::string help;                     // not empty: print it and do nothing else
