@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <map>
+#include <locale>
 #include <set>
 #include <sstream>
 
 namespace heerk_rotor {
 namespace {
 
-constexpr double kCharacter = 6.7, kLine = 15.0, kPad = 10.0, kGap = 16.0, kMatrix = 230.0;  // [px]
+constexpr double kCharacter = 6.7, kLine = 15.0, kPad = 10.0, kGap = 16.0, kMatrix = 230.0, kTitle = 40.0;  // [px]
 const char* const kInk = "#222222";
 const char* const kFaint = "#9aa5b1";
 const char* const kLoop = "#b3261e";
@@ -108,11 +109,15 @@ class Chart {
   std::vector<double> x_, y_;
 };
 
+/// Side of a pattern [px]: entries of small ones are not blown up.
+double side(const SparsityPattern& pattern) { return std::min(kMatrix, 24.0 * static_cast<double>(std::max<Index>(pattern.size, 1))); }
+
 void drawPattern(std::ostringstream& svg, double x, double y, const std::string& title, const SparsityPattern& pattern) {
+  const double extent = side(pattern);
   svg << "<text x=\"" << x << "\" y=\"" << y - 8.0 << "\">" << title << ": " << pattern.size << " x " << pattern.size << ", " << pattern.nonzeros() << " nonzeros</text>\n<rect x=\"" << x << "\" y=\"" << y
-      << "\" width=\"" << kMatrix << "\" height=\"" << kMatrix << "\" fill=\"white\" stroke=\"" << kInk << "\"/>\n";
+      << "\" width=\"" << extent << "\" height=\"" << extent << "\" fill=\"white\" stroke=\"" << kInk << "\"/>\n";
   if (pattern.size == 0) return;
-  const double pitch = kMatrix / static_cast<double>(pattern.size), dot = std::max(pitch * 0.9, 1.2);
+  const double pitch = extent / static_cast<double>(pattern.size), dot = std::max(pitch * 0.9, 1.2);
   svg << "<path fill=\"" << kInk << "\" d=\"";
   for (Index j = 0; j < pattern.size; ++j)
     for (Index p = pattern.start[static_cast<std::size_t>(j)]; p < pattern.start[static_cast<std::size_t>(j) + 1]; ++p)
@@ -124,9 +129,12 @@ void drawPattern(std::ostringstream& svg, double x, double y, const std::string&
 
 std::string couplingPicture(const CoupledSystem& system, const Coupling& coupling) {
   const Chart chart(system, coupling);
-  const double block = kMatrix + 44.0, loops = static_cast<double>(coupling.pruned.size());
+  const double loops = static_cast<double>(coupling.pruned.size());
+  double patterns = 0.0;  // height of the tallest column of patterns
+  for (std::size_t l = 0; l < coupling.pruned.size(); ++l)
+    patterns = std::max(patterns, side(coupling.full[l].gradient) + side(coupling.pruned[l].gradient) + side(coupling.pruned[l].factors) + 3.0 * kTitle);
   const double width = chart.width() + (loops > 0.0 ? 40.0 + loops * (kMatrix + 60.0) : 0.0) + 40.0;
-  const double height = std::max(chart.height(), loops > 0.0 ? 3.0 * block : 0.0) + 70.0;
+  const double height = std::max(chart.height(), patterns) + 70.0;
   std::ostringstream svg;
   svg.imbue(std::locale::classic());
   svg.precision(6);
@@ -138,9 +146,11 @@ std::string couplingPicture(const CoupledSystem& system, const Coupling& couplin
   for (std::size_t l = 0; l < coupling.pruned.size(); ++l) {
     const double x = chart.width() + 40.0 + static_cast<double>(l) * (kMatrix + 60.0);
     svg << "<text x=\"" << x << "\" y=\"-26\" font-size=\"13\" font-weight=\"bold\">Loop " << l + 1 << "</text>\n";
-    drawPattern(svg, x, 12.0, "all entries", coupling.full[l].gradient);
-    drawPattern(svg, x, 12.0 + block, "pruned", coupling.pruned[l].gradient);
-    drawPattern(svg, x, 12.0 + 2.0 * block, "L + U, pruned", coupling.pruned[l].factors);
+    const LoopInfo &full = coupling.full[l], &pruned = coupling.pruned[l];
+    double y = 12.0;
+    drawPattern(svg, x, y, "all entries", full.gradient);
+    drawPattern(svg, x, y += side(full.gradient) + kTitle, "pruned", pruned.gradient);
+    drawPattern(svg, x, y += side(pruned.gradient) + kTitle, "L + U, pruned", pruned.factors);
   }
   svg << "</svg>\n";
   return svg.str();

@@ -62,8 +62,8 @@ std::string couplingText(const CoupledSystem& system, const Coupling& coupling) 
     const LoopPlan& plan = coupling.plan.pruned[l];
     out << "loop " << l + 1 << ": " << names(system, pruned.outputs) << "\n"
         << "  evaluated before: " << names(system, plan.before) << "\n  iterated: " << names(system, plan.core) << "\n  evaluated after: " << names(system, plan.after) << "\n"
-        << "  all entries:    " << full.unknowns.size() << " unknowns, " << full.gradient_nonzeros << " nonzeros of I - dg/dy, " << full.factor_nonzeros << " of L + U\n"
-        << "  pruned to:      " << pruned.unknowns.size() << " unknowns, " << pruned.gradient_nonzeros << " nonzeros of I - dg/dy, " << pruned.factor_nonzeros << " of L + U, "
+        << "  all entries:    " << full.unknowns.size() << " unknowns, " << full.gradient_nonzeros << " nonzeros of I - dg/dy, " << full.factors.nonzeros() << " of L + U\n"
+        << "  pruned to:      " << pruned.unknowns.size() << " unknowns, " << pruned.gradient_nonzeros << " nonzeros of I - dg/dy, " << pruned.factors.nonzeros() << " of L + U, "
         << plan.colours << " differences per gradient\n";
   }
   return out.str();
@@ -75,8 +75,8 @@ std::string couplingJson(const CoupledSystem& system, const Coupling& coupling) 
   for (std::size_t l = 0; l < coupling.pruned.size(); ++l) {
     const LoopInfo &pruned = coupling.pruned[l], &full = coupling.full[l];
     out << (l > 0 ? ", " : "") << "{\"ports\": [" << names(system, pruned.outputs, "\"") << "], \"entries\": " << full.unknowns.size() << ", \"gradient_nonzeros\": " << full.gradient_nonzeros
-        << ", \"factor_nonzeros\": " << full.factor_nonzeros << ", \"pruned\": {\"unknowns\": " << pruned.unknowns.size() << ", \"gradient_nonzeros\": " << pruned.gradient_nonzeros
-        << ", \"factor_nonzeros\": " << pruned.factor_nonzeros << "}}";
+        << ", \"factor_nonzeros\": " << full.factors.nonzeros() << ", \"pruned\": {\"unknowns\": " << pruned.unknowns.size() << ", \"gradient_nonzeros\": " << pruned.gradient_nonzeros
+        << ", \"factor_nonzeros\": " << pruned.factors.nonzeros() << "}}";
   }
   out << "]}";
   return out.str();
