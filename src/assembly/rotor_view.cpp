@@ -92,6 +92,23 @@ RotorView::RotorView(const CoupledSystem& system) {
   collective_ = findCommand("collective");
   lateral_cyclic_ = findCommand("lateral_cyclic");
   longitudinal_cyclic_ = findCommand("longitudinal_cyclic");
+
+  // All components of a vector, or none.
+  const auto findCommands = [&](const std::vector<std::string>& quantities) {
+    std::vector<Index> entries;
+    std::string missing;
+    for (const std::string& quantity : quantities) {
+      const Index entry = findCommand(quantity);
+      if (entry < 0) missing = quantity;
+      else entries.push_back(entry);
+    }
+    if (!missing.empty() && !entries.empty())
+      fail("the system takes the command " + system.commandNames()[static_cast<std::size_t>(entries.front())] + " but none called " + missing);
+    return entries;
+  };
+  speed_ = findCommands({"speed"});
+  wind_ = findCommands({"wind_x", "wind_y", "wind_z"});
+  external_wrench_ = findCommands({"external_force_x", "external_force_y", "external_force_z", "external_moment_x", "external_moment_y", "external_moment_z"});
 }
 
 void RotorView::read(const Sample& sample, RotorReading& reading) const noexcept {

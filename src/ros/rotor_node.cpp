@@ -6,8 +6,6 @@
 #include <exception>
 #include <sstream>
 
-#include <std_msgs/Float64.h>
-
 #include "heerk_rotor/assembly/build_simulation.hpp"
 #include "heerk_rotor/config/simulation_settings.hpp"
 #include "heerk_rotor/ros/failure_report.hpp"
@@ -53,7 +51,7 @@ RotorNode::RotorNode(const NodeParameters& parameters)
       geometry_(readRotorGeometry(configuration_)),
       stamps_(chooseStampBase(parameters.publish_clock)),
       input_(readCommandLimits(configuration_, simulation_->system(), view_), parameters.lock_step > 0, [this] { loop_.wake(); }),
-      speed_(simulation_->system()),
+      disturbances_(simulation_->system(), view_),
       task_(*simulation_, view_, input_, taskOptions()),
       loop_(task_, clock_, {simulation_->stepSize(), parameters.real_time_factor, parameters.steps_per_wake, parameters.priority}),
       state_ring_(ringCapacity(kReaderSeconds, parameters.publish_every)),
@@ -66,7 +64,7 @@ RotorNode::RotorNode(const NodeParameters& parameters)
   const LcmLink::Sizes sizes{ringCapacity(kReaderSeconds, parameters_.lcm_every), ringCapacity(kRecorderSeconds, 1), recorded * steps_per_second};
   lcm_ = std::make_unique<LcmLink>(parameters_, sizes, stamps_, view_.hasSwashplate() ? &input_ : nullptr, [this] { return loop_.timing().overruns(); });
 
-  task_.setSpeedInput(speed_);
+  for (HeldInput* input : {&disturbances_.speed(), &disturbances_.wind(), &disturbances_.externalWrench()}) task_.addInput(*input);
   task_.addRing(state_ring_, static_cast<std::uint64_t>(parameters_.publish_every));
   diagnostics_.addReader({"ROS", [this] { return state_publisher_.published(); }, &state_ring_});
   lcm_->connect(task_, diagnostics_, parameters_.real_time_factor == 0.0, loop_.stopRequested());
@@ -92,10 +90,7 @@ std::size_t RotorNode::ringCapacity(double seconds, int every) const {
 
 void RotorNode::subscribeToCommands() {
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
-  if (speed_.present()) {
-    const auto onSpeed = [this](const std_msgs::Float64::ConstPtr& speed) { speed_.accept(speed->data); };
-    subscribers_.push_back(node_.subscribe<std_msgs::Float64>("rotor/speed_command", 1, onSpeed, ros::VoidConstPtr(), hints));
-  }
+  disturbances_.subscribe(node_);
   if (!view_.hasSwashplate()) {
     ROS_INFO("the configuration has no swashplate: commands are not subscribed to");
     return;

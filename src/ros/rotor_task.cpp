@@ -22,10 +22,20 @@ bool isFinite(const RotorReading& r) noexcept {
   return sum == 0.0;
 }
 
+bool isFinite(const BladeShapes& shapes) noexcept {
+  double sum = 0.0;
+  for (int k = 0; k < shapes.blades; ++k)
+    for (int i = 0; i < shapes.sections; ++i) {
+      const BladeShapes::Section& s = shapes.section[static_cast<std::size_t>(k)][static_cast<std::size_t>(i)];
+      sum += nonFinite(s.position) + nonFinite(s.chordwise) + 0.0 * s.load;
+    }
+  return sum == 0.0;
+}
+
 }  // namespace
 
 RotorTask::RotorTask(Simulation& simulation, RotorView& view, CommandInput& input, const Options& options)
-    : simulation_(simulation), view_(view), input_(input), options_(options), w_(simulation.system().defaultCommand()), history_(options.history) {
+    : simulation_(simulation), view_(view), input_(input), options_(options), blade_view_(simulation.system(), view.blades()), w_(simulation.system().defaultCommand()), history_(options.history) {
   simulation_.addObserver(*this);
 }
 
@@ -47,13 +57,12 @@ void RotorTask::useDefault(CommandSource source) noexcept {
   source_in_effect_ = source;
 }
 
-void RotorTask::latchSpeed() noexcept {
-  double speed;
-  if (speed_ != nullptr && speed_->take(speed)) w_[speed_->entry()] = speed;
+void RotorTask::latchHeldCommands() noexcept {
+  for (HeldInput* input : held_) input->takeInto(w_);
 }
 
 void RotorTask::latchCommand() noexcept {
-  latchSpeed();
+  latchHeldCommands();
   if (input_.take(command_)) apply(command_);
   if (options_.timeout_policy == TimeoutPolicy::kHold || options_.command_timeout == 0.0 || command_.source == CommandSource::kNone) return;
   if (1e-9 * static_cast<double>(clock_.now() - command_.arrival) <= options_.command_timeout) return;
@@ -65,7 +74,7 @@ bool RotorTask::ready() noexcept {
   if (options_.lock_step == 0 || granted_ > 0) return true;
   if (!input_.take(command_)) return false;
   apply(command_);
-  latchSpeed();
+  latchHeldCommands();
   granted_ = options_.lock_step;
   return true;
 }
@@ -97,12 +106,13 @@ void RotorTask::take(const Sample& sample) noexcept {
   view_.read(sample, instant_.reading);
   instant_.source = source_in_effect_.load(std::memory_order_relaxed);
   shown_ = true;
-  if (!isFinite(instant_.reading)) {
+  blade_view_.read(sample, picture_.blades);
+  if (!isFinite(instant_.reading) || !isFinite(picture_.blades)) {
     output_not_finite_ = true;
     return;
   }
   for (Reader& reader : readers_) reader.served = false;
-  newest_.write(instant_);
+  newest_.write(picture_);
   if (!history_.empty()) history_[history_count_++ % history_.size()] = instant_;
 }
 
@@ -119,8 +129,7 @@ void RotorTask::startOver() {
   Command stale;
   while (input_.take(stale)) {
   }
-  double stale_speed;
-  if (speed_ != nullptr) speed_->take(stale_speed);
+  for (HeldInput* input : held_) input->forget();
   command_ = Command();
   granted_ = 0;
   output_not_finite_ = false;

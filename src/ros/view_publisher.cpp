@@ -14,7 +14,7 @@ struct ViewPublisher::Output {
   ros::Time published = {};  // stamp of the last one: a stamp is never published twice
 };
 
-ViewPublisher::ViewPublisher(ros::NodeHandle& node, LatestValue<RotorInstant>& newest, const RotorGeometry& geometry, const StampBase& stamps)
+ViewPublisher::ViewPublisher(ros::NodeHandle& node, LatestValue<RotorPicture>& newest, const RotorGeometry& geometry, const StampBase& stamps)
     : newest_(newest), geometry_(geometry), stamps_(stamps) {
   odometry_ = node.advertise<nav_msgs::Odometry>("rotor/odom", 100);
   joints_ = node.advertise<sensor_msgs::JointState>("joint_states", 60);
@@ -41,25 +41,25 @@ void ViewPublisher::run() {
   geometry_msgs::TransformStamped transform;
   sensor_msgs::JointState joints;
   visualization_msgs::MarkerArray markers;
+  RotorPicture picture;
   const auto rate = [](int hertz) { return std::chrono::duration_cast<Clock::duration>(std::chrono::seconds(1)) / hertz; };
   std::vector<Output> outputs = {
       {rate(100), [&](const RotorReading& r, const ros::Time& stamp) { toOdometry(r, stamp, odometry), odometry_.publish(odometry); }},
       {rate(60), [&](const RotorReading& r, const ros::Time& stamp) { toTransform(r, stamp, transform), broadcaster_.sendTransform(transform); }},
       {rate(60), [&](const RotorReading& r, const ros::Time& stamp) { toJointState(r, stamp, joints), joints_.publish(joints); }},
-      {rate(30), [&](const RotorReading& r, const ros::Time& stamp) { toMarkers(r, geometry_, MarkerScale(), stamp, markers), blades_.publish(markers); }}};
+      {rate(30), [&](const RotorReading& r, const ros::Time& stamp) { toMarkers(r, picture.blades, geometry_, MarkerScale(), stamp, markers), blades_.publish(markers); }}};
 
-  RotorInstant instant;
   bool have = false;
   std::unique_lock<std::mutex> lock(mutex_);
   while (!stop_) {
-    have |= newest_.read(instant);
+    have |= newest_.read(picture);
     const Clock::time_point now = Clock::now();
-    const ros::Time stamp = stamps_.at(instant.reading.sim_time);
+    const ros::Time stamp = stamps_.at(picture.instant.reading.sim_time);
     Clock::time_point next = now + std::chrono::seconds(1);
     for (Output& output : outputs) {
       if (output.due <= now) {
         if (have && stamp > output.published) {
-          output.publish(instant.reading, stamp);
+          output.publish(picture.instant.reading, stamp);
           output.published = stamp;
         }
         output.due = std::max(output.due + output.period, now);  // what was missed is not made up for

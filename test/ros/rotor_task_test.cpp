@@ -27,6 +27,13 @@ struct Task : ::testing::Test {
   RotorInstant instant;
 
   static RotorTask::Options options() { return {}; }
+  /// Into `instant`.
+  bool readNewest(RotorTask& task) {
+    RotorPicture picture;
+    if (!task.newest().read(picture)) return false;
+    instant = picture.instant;
+    return true;
+  }
   std::vector<RotorInstant> drain() {
     std::vector<RotorInstant> all;
     while (ring.pop(instant)) all.push_back(instant);
@@ -48,7 +55,7 @@ TEST_F(Task, handsEveryNthStepToItsReaders) {
     ASSERT_TRUE(third.pop(instant));
     EXPECT_EQ(instant.reading.step, 3 * k);
   }
-  ASSERT_TRUE(task.newest().read(instant));
+  ASSERT_TRUE(readNewest(task));
   EXPECT_EQ(instant.reading.step, 29u);
 }
 
@@ -90,7 +97,7 @@ TEST_F(Task, holdKeepsAnOldCommandAndTrimGoesBack) {
     RotorTask task(*fresh, view, input, o);
     input.accept(std::array<double, 3>{0.1, 0.0, 0.0}, CommandSource::kRos);
     task.step();
-    ASSERT_TRUE(task.newest().read(instant));
+    ASSERT_TRUE(readNewest(task));
     EXPECT_EQ(instant.source, policy == TimeoutPolicy::kHold ? CommandSource::kRos : CommandSource::kTimeout);
     EXPECT_EQ(instant.reading.collective, policy == TimeoutPolicy::kHold ? 0.1 : 0.17);
   }
@@ -187,40 +194,41 @@ TEST_F(Task, aSparseReaderGetsAnInstantThatOnlyOthersHaveSeenOnceItIsAskedFor) {
 }
 
 TEST_F(Task, theSpeedCommandIsLatchedHeldAndOutlivesASwashplateTimeout) {
-  SpeedInput speed(simulation->system());
+  HeldInput speed(simulation->system(), "speed command", view.speedCommand(), {"rad/s"});
+  const Index entry = view.speedCommand().at(0);
   ASSERT_TRUE(speed.present());
   RotorTask::Options o = options();
   o.command_timeout = 1e-9;
   o.timeout_policy = TimeoutPolicy::kTrim;
   RotorTask task(*simulation, view, input, o);
-  task.setSpeedInput(speed);
+  task.addInput(speed);
   double in_effect = 0.0;
   struct Watch : Observer {
     Index entry;
     double& value;
     Watch(Index e, double& v) : entry(e), value(v) {}
     void observe(const Sample& sample) noexcept override { value = sample.w[entry]; }
-  } watch(speed.entry(), in_effect);
+  } watch(entry, in_effect);
   simulation->addObserver(watch);
-  const double standard = simulation->system().defaultCommand()[speed.entry()];
+  const double standard = simulation->system().defaultCommand()[entry];
   task.step();
   EXPECT_EQ(in_effect, standard);
-  EXPECT_TRUE(speed.accept(44.0));
+  EXPECT_TRUE(speed.accept({44.0}));
   input.accept(std::array<double, 3>{0.1, 0.0, 0.0}, CommandSource::kRos);  // too old at once
   task.step();
   EXPECT_EQ(task.source(), CommandSource::kTimeout);
   EXPECT_EQ(in_effect, 44.0);
-  EXPECT_FALSE(speed.accept(NAN));
-  EXPECT_FALSE(speed.accept(HUGE_VAL));
+  EXPECT_FALSE(speed.accept({NAN}));
+  EXPECT_FALSE(speed.accept({HUGE_VAL}));
   task.step();
   EXPECT_EQ(in_effect, 44.0);
-  EXPECT_TRUE(speed.accept(1000.0));
+  EXPECT_TRUE(speed.accept({1000.0}));
   task.step();
   EXPECT_EQ(in_effect, 49.2);  // the drive's max_speed
-  EXPECT_TRUE(speed.accept(-1.0));
+  EXPECT_TRUE(speed.accept({-1.0}));
   task.step();
   EXPECT_EQ(in_effect, 20.5);
-  speed.accept(43.0);  // not taken before the reset: stale
+  speed.accept({43.0});  // not taken before the reset: stale
   simulation->reset();
   task.startOver();
   task.step();
@@ -233,20 +241,20 @@ TEST_F(Task, startingOverAndResuming) {
   task.step();
   task.startOver();
   task.step();
-  ASSERT_TRUE(task.newest().read(instant));
+  ASSERT_TRUE(readNewest(task));
   EXPECT_EQ(instant.reading.collective, 0.17);
   EXPECT_EQ(instant.source, CommandSource::kNone);
   Vector w = simulation->system().defaultCommand();
   w[view.collectiveCommand()] = 0.08;
   task.resume(w);
   task.step();
-  ASSERT_TRUE(task.newest().read(instant));
+  ASSERT_TRUE(readNewest(task));
   EXPECT_EQ(instant.reading.collective, 0.08);
   EXPECT_EQ(instant.source, CommandSource::kSnapshot);
   EXPECT_STREQ(name(instant.source), "snapshot");
   input.accept(std::array<double, 3>{0.1, 0.0, 0.0}, CommandSource::kRos);
   task.step();
-  ASSERT_TRUE(task.newest().read(instant));
+  ASSERT_TRUE(readNewest(task));
   EXPECT_EQ(instant.source, CommandSource::kRos);
 }
 

@@ -33,7 +33,7 @@ TEST(StepPath, makesNoHeapCallInAHundredThousandPacedStepsWithCommandsArriving) 
   RotorView view(simulation->system());
   RealTimeLoop* waking = nullptr;
   CommandInput input(readCommandLimits(configuration, simulation->system(), view), false, [&] { waking->wake(); });
-  SpeedInput speed(simulation->system());
+  HeldInput speed(simulation->system(), "speed command", view.speedCommand(), {"rad/s"});
   ASSERT_TRUE(speed.present());
   RotorTask::Options options;
   options.history = 361;
@@ -41,7 +41,7 @@ TEST(StepPath, makesNoHeapCallInAHundredThousandPacedStepsWithCommandsArriving) 
   options.command_timeout = 0.005;  // time-outs happen as well
   options.last_step = kSteps;
   RotorTask task(*simulation, view, input, options);
-  task.setSpeedInput(speed);
+  task.addInput(speed);
   RotorRing every(1024), fourth(1024), log(1024);
   EagerClock clock;
   RealTimeLoop loop(task, clock, {simulation->stepSize(), 1.0, 1, 0});
@@ -55,19 +55,20 @@ TEST(StepPath, makesNoHeapCallInAHundredThousandPacedStepsWithCommandsArriving) 
   std::atomic<std::uint64_t> logged{0}, requests{0};
   std::thread reader([&] {
     RotorInstant instant;
+    RotorPicture picture;
     while (!done || log.size() > 0) {
       if (log.popWaiting(instant, std::chrono::milliseconds(5))) ++logged;
       while (every.pop(instant)) {
       }
       while (fourth.pop(instant)) {
       }
-      task.newest().read(instant);
+      task.newest().read(picture);
     }
   });
   std::thread controller([&] {
     for (int k = 0; !done; ++k) {
       input.accept(std::array<double, 3>{0.17 + 0.01 * std::sin(0.1 * k), 0.001, -0.001}, k % 2 == 0 ? CommandSource::kRos : CommandSource::kLcm);
-      speed.accept(41.0 + 0.5 * std::sin(0.05 * k));
+      speed.accept({41.0 + 0.5 * std::sin(0.05 * k)});
       if (logged > 0 && !loop.ended() && loop.call([] {})) ++requests;  // as the diagnostics do
       std::this_thread::sleep_for(std::chrono::milliseconds(k % 10 == 0 ? 20 : 1));  // the pause lets a command time out
     }

@@ -37,10 +37,11 @@ struct RotorReading {
 ///   azimuth, rotor_speed, lag, lag_rate, flap, flap_rate, pitch, pitch_rate, tip_twist (one entry per blade),
 ///   hub_force (3), hub_moment (3), fuselage_position (3), fuselage_velocity (3), fuselage_orientation (4), fuselage_rates (3),
 ///   thrust_coefficient, torque_coefficient, power_coefficient, advance_ratio, inflow (any size),
-/// and the commands *.collective, *.lateral_cyclic, *.longitudinal_cyclic. What is absent stays zero (orientation: identity).
+/// and the commands *.collective, *.lateral_cyclic, *.longitudinal_cyclic, *.speed, *.wind_x .. z, *.external_force_x .. z with
+/// *.external_moment_x .. z. What is absent stays zero (orientation: identity).
 class RotorView {
  public:
-  /// Throws std::invalid_argument when two subsystems offer the same quantity or sizes disagree.
+  /// Throws std::invalid_argument when two subsystems offer the same quantity or take the same command, or sizes disagree.
   explicit RotorView(const CoupledSystem& system);
 
   int blades() const { return blades_; }
@@ -49,6 +50,10 @@ class RotorView {
   Index collectiveCommand() const { return collective_; }
   Index lateralCyclicCommand() const { return lateral_cyclic_; }
   Index longitudinalCyclicCommand() const { return longitudinal_cyclic_; }
+  /// Entries of w in the order of the message's components; empty when the system takes no such command.
+  const std::vector<Index>& speedCommand() const { return speed_; }                    // of the rotor [rad/s]
+  const std::vector<Index>& windCommand() const { return wind_; }                      // x, y, z over ground, in odom [m/s]
+  const std::vector<Index>& externalWrenchCommand() const { return external_wrench_; } // force, moment, in base_link [N], [N m]
 
   /// Allocation free.
   void read(const Sample& sample, RotorReading& reading) const noexcept;
@@ -59,6 +64,7 @@ class RotorView {
       position_, velocity_, orientation_, rates_, thrust_coefficient_, torque_coefficient_, power_coefficient_,
       advance_ratio_, inflow_;
   Index collective_ = -1, lateral_cyclic_ = -1, longitudinal_cyclic_ = -1;
+  std::vector<Index> speed_, wind_, external_wrench_;
   int blades_ = 0;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 
+#include "heerk_rotor/assembly/blade_shapes.hpp"
 #include "heerk_rotor/assembly/rotor_view.hpp"
 #include "heerk_rotor/realtime/snapshot_ring.hpp"
 
@@ -26,6 +27,12 @@ constexpr const char* name(CommandSource source) {
 struct RotorInstant {
   RotorReading reading;
   CommandSource source = CommandSource::kNone;
+};
+
+/// What the display is told beyond that: too much for every step of a log.
+struct RotorPicture {
+  RotorInstant instant;
+  BladeShapes blades;
 };
 
 using RotorRing = SnapshotRing<RotorInstant>;

@@ -12,12 +12,12 @@
 #include "heerk_rotor/integrate/simulation.hpp"
 #include "heerk_rotor/realtime/real_time_loop.hpp"
 #include "heerk_rotor/ros/command_input.hpp"
+#include "heerk_rotor/ros/disturbance_inputs.hpp"
 #include "heerk_rotor/ros/node_parameters.hpp"
 #include "heerk_rotor/ros/rotor_diagnostics.hpp"
 #include "heerk_rotor/ros/rotor_geometry.hpp"
 #include "heerk_rotor/ros/rotor_services.hpp"
 #include "heerk_rotor/ros/rotor_task.hpp"
-#include "heerk_rotor/ros/speed_input.hpp"
 #include "heerk_rotor/ros/state_publisher.hpp"
 #include "heerk_rotor/ros/view_publisher.hpp"
 
@@ -57,7 +57,7 @@ class RotorNode {
   ros::NodeHandle node_, private_node_{"~"};
 
   CommandInput input_;
-  SpeedInput speed_;
+  DisturbanceInputs disturbances_;
   RotorTask task_;
   MonotonicClock clock_;
   RealTimeLoop loop_;

@@ -3,14 +3,15 @@
 #include <string>
 #include <vector>
 
+#include "heerk_rotor/assembly/blade_shapes.hpp"
 #include "heerk_rotor/assembly/rotor_view.hpp"
 #include "heerk_rotor/integrate/simulation.hpp"
 #include "heerk_rotor/realtime/latest_value.hpp"
 #include "heerk_rotor/realtime/real_time_loop.hpp"
 #include "heerk_rotor/realtime/rotor_instant.hpp"
 #include "heerk_rotor/ros/command_input.hpp"
+#include "heerk_rotor/ros/held_input.hpp"
 #include "heerk_rotor/ros/node_parameters.hpp"
-#include "heerk_rotor/ros/speed_input.hpp"
 
 namespace heerk_rotor {
 
@@ -34,8 +35,10 @@ class RotorTask : public StepTask, public Observer {
   void addRing(RotorRing& ring, std::uint64_t every);
   void addLosslessRing(RotorRing& ring, const std::atomic<bool>& stop);
 
-  /// Commands for the rotor speed, latched together with the swashplate command. Must outlive the task. Before the run.
-  void setSpeedInput(SpeedInput& speed) { speed_ = speed.present() ? &speed : nullptr; }
+  /// Commands latched together with the swashplate command. Must outlive the task. Before the run.
+  void addInput(HeldInput& input) {
+    if (input.present()) held_.push_back(&input);
+  }
 
   Result step() noexcept override;
   bool ready() noexcept override;
@@ -55,8 +58,8 @@ class RotorTask : public StepTask, public Observer {
   /// Why the last step failed, in words.
   std::string failureText() const;
 
-  /// Newest instant, for readers that want no other; one reading thread.
-  LatestValue<RotorInstant>& newest() { return newest_; }
+  /// Newest instant with the shape of the blades, for readers that want no other; one reading thread.
+  LatestValue<RotorPicture>& newest() { return newest_; }
 
   /// Any thread: source of the command in effect.
   CommandSource source() const { return source_in_effect_; }
@@ -70,8 +73,8 @@ class RotorTask : public StepTask, public Observer {
   };
   void apply(const Command& command) noexcept;
   void latchCommand() noexcept;
-  void latchSpeed() noexcept;
-  /// The swashplate's default; the speed command stays.
+  void latchHeldCommands() noexcept;
+  /// The swashplate's default; what is held stays.
   void useDefault(CommandSource source) noexcept;
   void take(const Sample& sample) noexcept;
   void handOut() noexcept;
@@ -79,14 +82,16 @@ class RotorTask : public StepTask, public Observer {
   Simulation& simulation_;
   RotorView& view_;
   CommandInput& input_;
-  SpeedInput* speed_ = nullptr;      // nullptr: no drive takes the speed
+  std::vector<HeldInput*> held_;     // of those that the system takes
   const Options options_;
   MonotonicClock clock_;
   std::vector<Reader> readers_;
-  LatestValue<RotorInstant> newest_;
+  const BladeShapeView blade_view_;
+  LatestValue<RotorPicture> newest_;
   Vector w_;                         // command in effect
   Command command_;                  // last one taken
-  RotorInstant instant_;             // last one shown
+  RotorPicture picture_;             // last one shown
+  RotorInstant& instant_ = picture_.instant;
   bool shown_ = false;               // instant_ holds something
   bool to_everyone_ = false;         // showPresent() is at work
   bool output_not_finite_ = false;

@@ -21,7 +21,7 @@ namespace heerk_rotor {
 class ViewPublisher {
  public:
   /// `newest` must outlive the publisher, which is its only reader.
-  ViewPublisher(ros::NodeHandle& node, LatestValue<RotorInstant>& newest, const RotorGeometry& geometry, const StampBase& stamps);
+  ViewPublisher(ros::NodeHandle& node, LatestValue<RotorPicture>& newest, const RotorGeometry& geometry, const StampBase& stamps);
   ~ViewPublisher();
 
   void start();
@@ -32,7 +32,7 @@ class ViewPublisher {
   struct Output;
   void run();
 
-  LatestValue<RotorInstant>& newest_;
+  LatestValue<RotorPicture>& newest_;
   const RotorGeometry geometry_;
   const StampBase stamps_;
   ros::Publisher odometry_, joints_, blades_;

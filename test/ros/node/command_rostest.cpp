@@ -195,7 +195,7 @@ TEST_F(Commands, theRotorSpeedFollowsItsCommandWithinTheDrivesRange) {
   ASSERT_TRUE(states.waitForSize(10)) << node.output();
   ASSERT_TRUE(eventually([&] { return speed.getNumSubscribers() == 1 && publisher.getNumSubscribers() == 1; }));
   sendSpeed(std::numeric_limits<double>::quiet_NaN());
-  EXPECT_TRUE(eventually([&] { return node.says("speed command refused: nan rad/s, expected [20.5, 49.2]"); })) << node.output();
+  EXPECT_TRUE(eventually([&] { return node.says("speed command refused: speed = nan rad/s, expected [20.5, 49.2]"); })) << node.output();
   EXPECT_NEAR(states.last().rotor_speed, 41.0, 0.01);
   sendSpeed(42.0);
   // A swashplate command that times out does not take the speed along.
@@ -214,7 +214,7 @@ TEST_F(Commands, theRotorSpeedFollowsItsCommandWithinTheDrivesRange) {
     }
   }
   sendSpeed(1000.0);
-  EXPECT_TRUE(eventually([&] { return node.says("speed command clamped: 1000 rad/s, expected [20.5, 49.2]"); })) << node.output();
+  EXPECT_TRUE(eventually([&] { return node.says("speed command clamped: speed = 1000 rad/s, expected [20.5, 49.2]"); })) << node.output();
   EXPECT_TRUE(states.waitForLast([](const RotorState& s) { return s.rotor_speed > 43.0; }, 20.0));
 }
 
