@@ -1,6 +1,6 @@
 # Messages, services and the catkin package. Comes before all targets: catkin_package() sets their output directories.
 add_message_files(DIRECTORY msg FILES RotorState.msg BladeAngles.msg SwashplateCommand.msg ShaftState.msg)
-add_service_files(DIRECTORY srv FILES Step.srv SaveSnapshot.srv LoadSnapshot.srv)
+add_service_files(DIRECTORY srv FILES Step.srv SaveSnapshot.srv LoadSnapshot.srv Trim.srv)
 generate_messages(DEPENDENCIES std_msgs geometry_msgs)
 
 # What another package gets with find_package(catkin COMPONENTS heerk_rotor).

@@ -20,7 +20,7 @@ ROOMS = {
     "analysis": {"core", "solve", "integrate", "config", "assembly"},
     "realtime": {"core", "solve", "integrate", "assembly"},  # assembly: RotorReading is what travels through the rings
     "lcm": {"core", "solve", "integrate", "beam", "aero", "models", "config", "assembly", "realtime"},
-    "ros": {"core", "solve", "integrate", "beam", "aero", "models", "config", "assembly", "realtime", "lcm"},
+    "ros": {"core", "solve", "integrate", "beam", "aero", "models", "config", "assembly", "analysis", "realtime", "lcm"},
     "tools": {"core", "solve", "integrate", "beam", "aero", "models", "config", "assembly", "analysis", "realtime", "lcm", "ros"},
 }
 

@@ -51,7 +51,7 @@ bool RevolutionMap::run(const Vector& x, const Vector& w, long steps) {
   simulation_->restore(start);
   revolutions_ += steps / steps_;
   for (long i = 0; i < steps; ++i)
-    if (simulation_->step(w) != StepStatus::kOk) return false;
+    if ((cancel_ && *cancel_) || simulation_->step(w) != StepStatus::kOk) return false;
   return true;
 }
 

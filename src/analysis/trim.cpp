@@ -29,6 +29,7 @@ TrimResult trim(const std::function<std::unique_ptr<Simulation>()>& build, doubl
   std::unique_ptr<Simulation> first = build();
   const long steps = stepsPerRevolution(revolution, first->stepSize());
   MapTeam maps = makeTeam(build, steps, settings.signals, options.threads);
+  for (const auto& each : maps) each->setCancel(options.cancel);
   RevolutionMap& map = *maps.front();
   const CoupledSystem& system = map.system();
 

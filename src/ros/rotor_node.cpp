@@ -58,6 +58,7 @@ RotorNode::RotorNode(const NodeParameters& parameters)
       state_publisher_(node_, state_ring_, {stamps_, parameters.publish_clock, [this] { return loop_.timing().overruns(); }}),
       view_publisher_(node_, task_.newest(), geometry_, stamps_),
       services_(private_node_, *simulation_, task_, loop_, configuration_.resolvedText(), parameters.lock_step > 0),
+      trim_service_(private_node_, configuration_, *simulation_, task_, loop_),
       diagnostics_(node_, *simulation_, task_, loop_, view_.hasSwashplate() ? &input_ : nullptr) {
   const double steps_per_second = 1.0 / simulation_->stepSize();
   const double recorded = parameters_.duration > 0.0 ? parameters_.duration : 60.0;  // [s]; endless: room for a minute at least
@@ -113,6 +114,7 @@ void RotorNode::start() {
   const std::string scheduling = parameters_.real_time_factor > 0.0 ? rights.text(parameters_.priority) : "as fast as possible at normal priority";
   diagnostics_.start(scheduling);
   spinner_.start();
+  trim_service_.start();
   ROS_INFO_STREAM("running " << configuration_.file() << ": " << simulation_->options().method->name << ", step " << simulation_->stepSize() << " s, real-time factor "
                              << parameters_.real_time_factor << "; step thread: " << scheduling);
 }
@@ -159,6 +161,7 @@ void RotorNode::reportFailure() {
 }
 
 void RotorNode::stop() {
+  trim_service_.stop();
   spinner_.stop();
   diagnostics_.stop();
   loop_.stop();

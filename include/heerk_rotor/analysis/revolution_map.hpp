@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -28,6 +29,9 @@ class RevolutionMap {
   const Simulation::Checkpoint& base() const { return base_; }
   void setBase(const Simulation::Checkpoint& base) { base_ = base; }
 
+  /// All runs end early, as failed, once this becomes true.
+  void setCancel(const std::atomic<bool>* cancel) { cancel_ = cancel; }
+
   const Simulation& simulation() const { return *simulation_; }
   const CoupledSystem& system() const { return simulation_->system(); }
   const std::vector<Signal>& signals() const { return signals_; }
@@ -46,6 +50,7 @@ class RevolutionMap {
   Simulation::Checkpoint base_;
   std::unique_ptr<MeanObserver> mean_;
   long revolutions_ = 0;
+  const std::atomic<bool>* cancel_ = nullptr;
 };
 
 }  // namespace heerk_rotor

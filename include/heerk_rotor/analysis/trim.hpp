@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
@@ -39,6 +40,7 @@ struct TrimResult {
 struct TrimOptions {
   unsigned threads = 0;                 // 0: one per processor; the result does not depend on it
   std::function<void(const std::string&)> progress = {};  // one line per iteration
+  const std::atomic<bool>* cancel = nullptr;              // set from another thread: the search ends soon, as kSimulationFailed
 };
 
 /// `build` makes a fresh simulation of the configuration, once per thread; `revolution` [s] must be a whole number of its steps

@@ -19,6 +19,7 @@
 #include "heerk_rotor/ros/rotor_services.hpp"
 #include "heerk_rotor/ros/rotor_task.hpp"
 #include "heerk_rotor/ros/state_publisher.hpp"
+#include "heerk_rotor/ros/trim_service.hpp"
 #include "heerk_rotor/ros/view_publisher.hpp"
 
 namespace heerk_rotor {
@@ -65,6 +66,7 @@ class RotorNode {
   StatePublisher state_publisher_;
   ViewPublisher view_publisher_;
   RotorServices services_;
+  TrimService trim_service_;
   RotorDiagnostics diagnostics_;
   std::unique_ptr<LcmLink> lcm_;  // set at the end of construction, in a build without LCM as well
   std::vector<ros::Subscriber> subscribers_;

@@ -7,6 +7,7 @@
 #include "heerk_rotor/RotorState.h"
 #include "heerk_rotor/SaveSnapshot.h"
 #include "heerk_rotor/Step.h"
+#include "heerk_rotor/Trim.h"
 #include "ros/node/node_process.hpp"
 
 namespace heerk_rotor {
@@ -147,6 +148,35 @@ TEST_F(Services, unpauseInterruptsALongStepRequest) {
   stepper.join();
   EXPECT_FALSE(response.success);
   EXPECT_NE(response.message.find("interrupted"), std::string::npos) << response.message;
+}
+
+TEST(TrimService, continuesFromTheEquilibriumWithTheThrustAskedFor) {
+  Collector<RotorState> states{"rotor/state"};
+  NodeProcess node;
+  node.set("publish_every", 1).set("set", std::vector<std::string>{"trim.controls=[swashplate.collective]", "trim.targets.rotor.hub_force_z=20000", "trim.hold=[drive.angle]"});
+  node.start();
+  ASSERT_TRUE(states.waitForSize(200)) << node.output();
+  ASSERT_TRUE(ros::service::waitForService("/rotor/trim", 10000));
+  const std::uint64_t before = states.last().step;
+
+  Trim wrong;
+  wrong.request.targets = {1.0, 2.0};
+  ASSERT_TRUE(ros::service::call("/rotor/trim", wrong));
+  EXPECT_FALSE(wrong.response.success);
+  EXPECT_NE(wrong.response.message.find("targets has 2 values, expected 1"), std::string::npos) << wrong.response.message;
+
+  Trim trim;
+  trim.request.targets = {22000.0};  // instead of the configuration's
+  ASSERT_TRUE(ros::service::call("/rotor/trim", trim));
+  ASSERT_TRUE(trim.response.success) << trim.response.message;
+  ASSERT_EQ(trim.response.controls, std::vector<std::string>{"swashplate.collective"});
+  ASSERT_TRUE(states.waitForLast([](const RotorState& s) { return s.epoch == 1; }));
+  ASSERT_TRUE(states.waitForLast([before](const RotorState& s) { return s.step > before + 100 && s.epoch == 1; }));
+  const RotorState state = states.last();
+  EXPECT_EQ(state.command_source, "snapshot");
+  EXPECT_EQ(state.collective, trim.response.values[0]);
+  // Uniform hover: the thrust of the periodic motion is constant, and it is there at once.
+  EXPECT_NEAR(state.hub.force.z, 22000.0, 0.01);
 }
 
 }  // namespace
