@@ -5,6 +5,8 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <string>
@@ -21,6 +23,17 @@ using Overrides = std::vector<std::string>;
 /// config/<name> with overrides "key=value".
 inline Configuration shipped(const std::string& name, const Overrides& overrides = {}) {
   return Configuration::load(std::string(HEERK_SOURCE_DIR) + "/config/" + name, overrides);
+}
+
+/// The same with further connections "[from, to]".
+inline Configuration shippedWith(const std::vector<std::string>& connections, const std::string& name, const Overrides& overrides) {
+  const std::string path = std::string(HEERK_SOURCE_DIR) + "/config/" + name, head = "\nconnections:\n";
+  std::ifstream file(path);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t at = text.find(head);
+  if (at == std::string::npos) throw std::runtime_error(path + " has no connections");
+  for (const std::string& connection : connections) text.insert(at + head.size(), "  - " + connection + "\n");
+  return Configuration::parse(text, path, overrides);
 }
 
 inline Overrides operator+(Overrides a, const Overrides& b) {
