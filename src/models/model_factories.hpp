@@ -18,6 +18,7 @@ Made makeDrive(Section& section, const BuildContext& context);
 Made makeSwashplate(Section& section, const BuildContext& context);
 Made makeUniformInflow(Section& section, const BuildContext& context);
 Made makeDreesInflow(Section& section, const BuildContext& context);
+Made makePrescribedInflow(Section& section, const BuildContext& context);
 Made makePittPetersInflow(Section& section, const BuildContext& context);
 Made makeGovernedDrive(Section& section, const BuildContext& context);
 Made makeRotorCoefficients(Section& section, const BuildContext& context);

@@ -70,6 +70,7 @@ const std::vector<ModelType>& modelTypes() {
       {"swashplate", "second-order actuators, collective and cyclic blade pitch", makeSwashplate},
       {"uniform_inflow", "uniform induced flow after Glauert", makeUniformInflow},
       {"drees_inflow", "linear induced flow after Drees", makeDreesInflow},
+      {"prescribed_inflow", "induced flow as commanded", makePrescribedInflow},
       {"pitt_peters_inflow", "dynamic induced flow after Pitt and Peters, three states", makePittPetersInflow},
       {"rotor_coefficients", "thrust, torque, power and moment coefficients, multiblade coordinates", makeRotorCoefficients},
       {"lag_airloads", "blade-element airloads with uniform inflow for the lag rotor", makeLagAirloads},

@@ -28,6 +28,16 @@ void DreesInflow::evalOutput(Index, double, const In&, const In& u, Out y) noexc
   wind.toHub(-2.0 * wind.mu * mean, cosine_wind, y[1], y[2]);
 }
 
+std::vector<InputPort> PrescribedInflow::inputs() const {
+  std::vector<InputPort> list = inflowInputs();
+  list[0].unconnected = Unconnected::kDefault;
+  list.push_back({"command", 3, "-", "induced flow over Omega R, downwards positive: mean, sine and cosine part", Unconnected::kCommand, inflow_, {"mean", "sine", "cosine"}});
+  return list;
+}
+std::vector<OutputPort> PrescribedInflow::outputs() const { return inflowOutputs({"command"}); }
+
+void PrescribedInflow::evalOutput(Index, double, const In&, const In& u, Out y) noexcept { y = u.tail(3); }
+
 namespace {
 
 /// One line, `type`, swaps the inflow models: the key of pitt_peters_inflow is accepted without effect.
@@ -47,6 +57,15 @@ Made makeDreesInflow(Section& section, const BuildContext&) {
   acceptDynamicInflowKeys(section);
   section.finish();
   return std::make_unique<DreesInflow>(kappa);
+}
+
+Made makePrescribedInflow(Section& section, const BuildContext&) {
+  std::vector<double> inflow;
+  for (const char* part : {"mean", "sine", "cosine"}) inflow.push_back(section.number(part, 0.0, "-", {-1.0, 1.0, false}));
+  readInducedPowerFactor(section);  // without effect: one line swaps the models
+  acceptDynamicInflowKeys(section);
+  section.finish();
+  return std::make_unique<PrescribedInflow>(inflow);
 }
 
 }  // namespace heerk_rotor

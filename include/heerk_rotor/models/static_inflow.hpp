@@ -38,4 +38,21 @@ class DreesInflow : public SubsystemModel {
   double kappa_;
 };
 
+/// Induced flow as commanded (mean, sine, cosine over Omega R, downwards positive), whatever the loads: measured or assumed inflow, closed forms.
+/// Parameters of the same names are the command until one arrives. No states; ports of inflow_ports.hpp, and the command.
+class PrescribedInflow : public SubsystemModel {
+ public:
+  explicit PrescribedInflow(const std::vector<double>& inflow) : inflow_(inflow) {}
+
+  std::vector<State> states() const override { return {}; }
+  std::vector<std::string> ignoredInitialValues() const override { return {"mean", "sine", "cosine"}; }  // of pitt_peters_inflow
+  std::vector<InputPort> inputs() const override;
+  std::vector<OutputPort> outputs() const override;
+  void evalOutput(Index port, double t, const In& x, const In& u, Out y) noexcept override;
+  void evalDerivatives(double, const In&, const In&, Out) noexcept override {}
+
+ private:
+  std::vector<double> inflow_;
+};
+
 }  // namespace heerk_rotor

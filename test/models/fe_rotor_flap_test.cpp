@@ -1,0 +1,207 @@
+// The discretised rotor against the textbook's closed forms: a rigid blade that flaps about a hinge at the shaft (e = 0), without drag, tip loss and
+// compressibility. The FE blade becomes rigid by keeping its lowest mode only: a straight line through the hinge, which is an exact
+// mode of the elements. Forms and reference numbers: Johnson, Helicopter Theory, 5; Bramwell, 3 (signs: psi = 0 aft, lambda down).
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <complex>
+
+#include "models/rotor_runs.hpp"
+
+namespace heerk_rotor {
+namespace {
+
+using namespace test;
+
+constexpr double kOmega = 44.4, kR = 4.91, kMass = 5.55, kRho = 1.225, kSlope = 5.73, kLock = 8.0, kDegree = M_PI / 180;
+const double kInertia = kMass * kR * kR * kR / 3.0;
+
+struct Controls {
+  double theta0, twist, theta1c, theta1s, lambda, lambda1c, lambda1s;  // [rad, -]
+};
+constexpr Controls kReference{0.24, -0.14, 0.02, -0.05, 0.04, 0.01, 0.004};
+
+std::string digits(double value) { return set("", value).substr(1); }
+
+/// The Bo105 configuration with rigid flapping blades in a wind tunnel, flow edgewise at mu.
+/// Small angles hold in the airloads and in the structure, or in the structure only.
+enum class Kinematics { kSmall, kFullAirloads, kFull };
+Overrides flapping(double mu, const Controls& c, Kinematics kinematics = Kinematics::kSmall) {
+  Overrides list{"subsystems.drive.type=drive", "subsystems.mast.type=rigid_mast", "subsystems.fuselage.mode=rigid", "subsystems.fuselage.gravity=0",
+                 "subsystems.fuselage.shaft_tilt_forward_deg=0", "subsystems.airloads.polar=linear", "subsystems.airloads.compressible=false", "subsystems.airloads.drag=[0.0]",
+                 "subsystems.airloads.tip_loss_factor=1.0", "subsystems.inflow.type=prescribed_inflow", "subsystems.rotor.blades=2", "subsystems.rotor.precone_deg=0",
+                 "subsystems.rotor.zero_twist_radius=0.75", "subsystems.rotor.root_cutout=0", "subsystems.rotor.section_rule=gauss", "subsystems.rotor.sections=6",
+                 "subsystems.rotor.flap_hinge=true", "subsystems.rotor.modes=1", "subsystems.rotor.damping_mass=0", "subsystems.rotor.damping_stiffness=0",
+                 "subsystems.rotor.km1=0", "simulation.newton_tolerance=1e-13"};
+  const auto number = [&](const std::string& key, double value) { list.push_back(set(key, value)); };
+  const auto table = [&](const std::string& key, double value) { list.push_back(set("subsystems.rotor." + key, value)); };
+  list.push_back("subsystems.rotor.nodes=[0.0, 2.0, 4.91]");
+  list.push_back("subsystems.rotor.stations=[0.0, 4.91]");
+  // Stiff against the hinge spring as well; the mode that is kept is at 1 to 1.2 per rev all the same.
+  for (const char* stiffness : {"EI_flap", "EI_lag", "GJ"}) table(stiffness, 1e13);
+  table("mass", kMass);
+  table("twist_deg_per_R", c.twist / kDegree);
+  number("subsystems.airloads.lift_slope", kSlope);
+  number("subsystems.airloads.air_density", kRho);
+  number("subsystems.airloads.chord", kLock * kInertia / (kRho * kSlope * std::pow(kR, 4)));
+  // theta0 is that of the straight root; the hinge turns with the pitch at 0.75 R, which matters with full kinematics only.
+  number("subsystems.swashplate.trim_collective", c.theta0 + 0.75 * c.twist);
+  number("subsystems.swashplate.trim_lateral_cyclic", c.theta1c);
+  number("subsystems.swashplate.trim_longitudinal_cyclic", c.theta1s);
+  number("subsystems.inflow.mean", c.lambda);
+  number("subsystems.inflow.sine", c.lambda1s);
+  number("subsystems.inflow.cosine", c.lambda1c);
+  list.push_back("subsystems.fuselage.wind=[" + digits(-mu * kOmega * kR) + ", 0, 0]");
+  if (kinematics != Kinematics::kFull) list.push_back("subsystems.rotor.kinematics=small_angle");
+  if (kinematics == Kinematics::kSmall) list.push_back("subsystems.airloads.kinematics=small_angle");
+  return list;
+}
+
+struct Flap {
+  double mean, cosine, sine;  // beta_0, beta_1c, beta_1s [rad]
+};
+
+/// After the transient, e^(-gamma/16 psi), has gone: 1e-14 after 10 revolutions.
+Flap settledFlap(const Overrides& overrides) {
+  auto simulation = buildSimulation(shipped("bo105.yaml", overrides));
+  EXPECT_TRUE(advance(*simulation, 3600)) << simulation->failure().cause;
+  Recorder recorder(*simulation, {"rotor.flap_1"});
+  EXPECT_TRUE(advance(*simulation, 360));
+  Flap flap{};
+  for (int i = 0; i < 360; ++i) {
+    const double beta = recorder.rows[static_cast<std::size_t>(i)][0], psi = i * kDegree;
+    flap.mean += beta / 360;
+    flap.cosine += 2 * beta * std::cos(psi) / 360;
+    flap.sine += 2 * beta * std::sin(psi) / 360;
+  }
+  return flap;
+}
+
+/// nu = 1, first harmonic balance of the flap equation.
+Flap closedForm(double mu, const Controls& c) {
+  Flap b;
+  b.mean = kLock * ((1 + mu * mu) / 8 * c.theta0 + (0.1 + mu * mu / 12) * c.twist + mu / 6 * c.theta1s - c.lambda / 6 - mu * c.lambda1s / 12);
+  b.cosine = -(8.0 / 3 * mu * c.theta0 + 2 * mu * c.twist - 2 * mu * c.lambda + (1 + 1.5 * mu * mu) * c.theta1s - c.lambda1s) / (1 - 0.5 * mu * mu);
+  b.sine = c.theta1c - (4.0 / 3 * mu * b.mean + c.lambda1c) / (1 + 0.5 * mu * mu);
+  return b;
+}
+
+TEST(FeRotorFlap, closedFormHasThePrintedNumbers) {
+  const Flap hover = closedForm(0.0, kReference), flight = closedForm(0.2, kReference);
+  const double printed[] = {4.2781, 3.0940, 0.5730, 3.8197, 0.0585, -0.4144};
+  const double values[] = {hover.mean, hover.cosine, hover.sine, flight.mean, flight.cosine, flight.sine};
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(values[i] / kDegree, printed[i], 5.1e-5);  // last printed digit
+}
+
+/// The textbook's flap equation by harmonic balance with `harmonics` harmonics:
+///   beta'' + nu^2 beta = gamma/2 int_0^1 r (theta U_T^2 - U_P U_T) dr,  U_T = r + mu sin psi,  U_P = lambda + r beta' + mu beta cos psi.
+/// With one harmonic this is the closed form. That form leaves out what beta_2 does to beta_1, which no simulation does.
+Flap harmonicBalance(double mu, const Controls& c, int harmonics) {
+  const int size = 2 * harmonics + 1, points = 8 * (harmonics + 2);  // products of second order in sin psi are projected exactly
+  Matrix shape(points, size), equation(points, size);
+  Vector load(points);
+  for (int i = 0; i < points; ++i) {
+    const double psi = 2 * M_PI * i / points, s = std::sin(psi), co = std::cos(psi);
+    const double damping = 0.25 + mu * s / 3, spring = mu * co * (1.0 / 3 + mu * s / 2);
+    const double theta = c.theta0 + c.theta1c * co + c.theta1s * s;
+    load[i] = 0.5 * kLock * (theta * (0.25 + 2.0 / 3 * mu * s + 0.5 * mu * mu * s * s) + c.twist * (0.2 + 0.5 * mu * s + mu * mu * s * s / 3) -
+                             c.lambda * (1.0 / 3 + 0.5 * mu * s) - (c.lambda1s * s + c.lambda1c * co) * damping);
+    for (int j = 0; j < size; ++j) {
+      const int n = (j + 1) / 2;
+      const double value = j % 2 == 1 ? std::cos(n * psi) : n == 0 ? 1.0 : std::sin(n * psi), rate = j % 2 == 1 ? -n * std::sin(n * psi) : n * std::cos(n * psi);
+      shape(i, j) = value;
+      equation(i, j) = (1.0 - n * n) * value + 0.5 * kLock * (damping * rate + spring * value);
+    }
+  }
+  const Vector b = (shape.transpose() * equation).partialPivLu().solve(shape.transpose() * load);
+  return {b[0], b[1], b[2]};
+}
+
+TEST(FeRotorFlap, harmonicBalanceOfFirstOrderIsTheClosedForm) {
+  for (const double mu : {0.0, 0.1, 0.2, 0.4}) {
+    const Flap a = closedForm(mu, kReference), b = harmonicBalance(mu, kReference, 1);
+    EXPECT_NEAR(a.mean, b.mean, 1e-14);
+    EXPECT_NEAR(a.cosine, b.cosine, 1e-14);
+    EXPECT_NEAR(a.sine, b.sine, 1e-14);
+  }
+}
+
+TEST(FeRotorFlap, coefficientsAreThoseOfTheFlapEquation) {
+  for (const double mu : {0.0, 0.2}) {
+    const Flap first = closedForm(mu, kReference), exact = harmonicBalance(mu, kReference, 10);
+    const Flap small = settledFlap(flapping(mu, kReference)), full_air = settledFlap(flapping(mu, kReference, Kinematics::kFullAirloads)),
+               full = settledFlap(flapping(mu, kReference, Kinematics::kFull));
+    const double closed[] = {first.mean, first.cosine, first.sine}, all[] = {exact.mean, exact.cosine, exact.sine};
+    const double of_small[] = {small.mean, small.cosine, small.sine}, of_full[] = {full.mean, full.cosine, full.sine},
+                 of_full_air[] = {full_air.mean, full_air.cosine, full_air.sine};
+    const char* const names[] = {"beta_0", "beta_1c", "beta_1s"};
+    for (int i = 0; i < 3; ++i) {
+      const std::string at = std::string(names[i]) + " [deg], mu " + std::to_string(mu);
+      report("small angles less flap equation, " + at, (of_small[i] - all[i]) / kDegree);
+      report("flap equation less its first harmonics (closed form), " + at, (all[i] - closed[i]) / kDegree);
+      report("full kinematics of the airloads less closed form, " + at, (of_full_air[i] - closed[i]) / kDegree);
+      report("full kinematics less closed form, " + at, (of_full[i] - closed[i]) / kDegree);
+      EXPECT_NEAR(of_small[i] / kDegree, all[i] / kDegree, 1e-7) << at;  // HEERK4 at one degree: (1 deg)^4 / 120 of some degrees; required 1e-5
+      EXPECT_NEAR(of_full_air[i] / kDegree, closed[i] / kDegree, 0.05) << at;  // third powers of the inflow angle (0.2 rad inboard), second harmonics
+      // The hinge of the FE blade turns with the pitch (0.135 rad), so that flapping has a part in the disc plane,
+      // where no centrifugal stiffness is (nu^2 = cos^2 theta: 1 deg of phase) and Coriolis forces of coning act. The textbook's does not.
+      EXPECT_NEAR(of_full[i] / kDegree, closed[i] / kDegree, 0.25) << at;
+    }
+  }
+}
+
+/// With all stiffness in the hinge: nu^2 = 1 + K / (I Omega^2).
+Overrides withFlapSpring(const Overrides& overrides, double nu) { return overrides + Overrides{set("subsystems.rotor.flap_spring", (nu * nu - 1) * kInertia * kOmega * kOmega)}; }
+
+TEST(FeRotorFlap, cyclicPitchMovesTheDiscWithThePhaseLagOfTheClosedForm) {
+  for (const double nu : {1.0, 1.03, 1.15}) {
+    const Flap lateral = settledFlap(withFlapSpring(flapping(0.0, {0.2, 0.0, 0.05, 0.0, 0.04, 0.0, 0.0}), nu));
+    const Flap longitudinal = settledFlap(withFlapSpring(flapping(0.0, {0.2, 0.0, 0.0, -0.05, 0.04, 0.0, 0.0}), nu));
+    const double lag = 90 - std::atan(8 * (nu * nu - 1) / kLock) / kDegree;
+    const double amplitude = 0.05 * kLock / 8 / std::hypot(nu * nu - 1, kLock / 8);
+    report("phase lag [deg], nu " + std::to_string(nu), std::atan2(lateral.sine, lateral.cosine) / kDegree);
+    // HEERK4 at one degree: (1 deg)^4 / 120 of the air's damping and of the pitch, about 1e-8.
+    EXPECT_NEAR(std::atan2(lateral.sine, lateral.cosine) / kDegree, lag, 1e-5);
+    EXPECT_NEAR(std::hypot(lateral.cosine, lateral.sine), amplitude, 1e-7 * amplitude);
+    // -sin(psi - lag): a quarter turn on.
+    EXPECT_NEAR(std::atan2(longitudinal.cosine, -longitudinal.sine) / kDegree, lag, 1e-5);
+  }
+}
+
+/// Eigenvalue, per radian of the rotor, of a free oscillation: root of z^2 + p z + q, which four equidistant values determine.
+std::complex<double> flapEigenvalue(const Overrides& overrides, const std::vector<std::string>& connections = {}) {
+  auto simulation = buildSimulation(shippedWith(connections, "bo105.yaml", overrides + Overrides{"subsystems.rotor.initial={F1_1: 0.1, F1_2: 0.1}"}));
+  Recorder recorder(*simulation, {"rotor.flap_1"}, 40);
+  EXPECT_TRUE(advance(*simulation, 121)) << simulation->failure().cause;
+  double v[4];
+  for (std::size_t i = 0; i < 4; ++i) v[i] = recorder.rows[i][0];
+  Eigen::Matrix2d m;
+  m << v[1], v[0], v[2], v[1];
+  const Eigen::Vector2d pq = m.inverse() * Eigen::Vector2d(-v[2], -v[3]);
+  const std::complex<double> root = -0.5 * pq[0] + std::sqrt(std::complex<double>(0.25 * pq[0] * pq[0] - pq[1], 0.0));
+  return std::log(root) / (40 * kDegree);
+}
+
+TEST(FeRotorFlap, freeFlapDecaysWithTheEigenvalueOfTheClosedForm) {
+  const Controls still{};
+  for (const double nu : {1.0, 1.03, 1.15}) {
+    const std::complex<double> s = flapEigenvalue(withFlapSpring(flapping(0.0, still), nu));
+    const std::complex<double> exact(-kLock / 16, std::sqrt(nu * nu - kLock * kLock / 256));
+    report("error of the flap eigenvalue per rad, nu " + std::to_string(nu), std::abs(s - exact));
+    EXPECT_LE(std::abs(s - exact), 1e-7);  // HEERK4 at one degree: (1 deg)^4 / 120 = 8e-10 times a few
+  }
+}
+
+TEST(FeRotorFlap, pitchFlapCouplingStiffensTheFlap) {
+  for (const double delta3 : {-20.0, 15.0, 30.0}) {
+    const std::complex<double> s = flapEigenvalue(flapping(0.0, Controls{}) + Overrides{set("subsystems.swashplate.delta3_deg", delta3)},
+                                                  {"[rotor.flap, swashplate.flap]", "[rotor.flap_rate, swashplate.flap_rate]", "[rotor.flap_acceleration, swashplate.flap_acceleration]"});
+    const double squared = 1 + kLock / 8 * std::tan(delta3 * kDegree);
+    report("nu_eff^2, delta3 " + std::to_string(delta3), std::norm(s));
+    EXPECT_NEAR(std::norm(s), squared, 1e-7);  // as above
+    EXPECT_NEAR(s.real(), -kLock / 16, 1e-7);
+  }
+}
+
+}  // namespace
+}  // namespace heerk_rotor
