@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "models/coupled_instant.hpp"
+#include "models/section_sums.hpp"
 
 namespace heerk_rotor {
 namespace {
@@ -136,30 +137,20 @@ class Aircraft {
                  velocity = now.port("rotor.section_velocity"), pitch_rate = now.port("rotor.section_pitch_rate"), root = now.port("rotor.root_load"),
                  link_rate = now.port("swashplate.pitch_rate");
     const Vector3d rates = now.port("fuselage.mount_velocity").tail<3>();
-    // Pitching moments act about the undeformed axis: they are of second order already, and so the model has them.
+    const HubLoad sum = sumOfAirloads(motion[0], loads, position, blades_, kPrecone);
+    force = polar(sum.force);
+    moment = axial(sum.moment);
     const Vector3d along(std::cos(kPrecone), 0.0, std::sin(kPrecone));
-    Vector3d f_sum = Vector3d::Zero(), m_sum = Vector3d::Zero();
     power = link_power = 0.0;
     for (int k = 0; k < blades_; ++k) {
-      const double psi = motion[0] + 2 * M_PI * k / blades_;
-      Matrix3d R;
-      R << -std::cos(psi), std::sin(psi), 0, -std::sin(psi), -std::cos(psi), 0, 0, 0, 1;
-      const Vector3d omega = R.transpose() * rates + motion[1] * Vector3d::UnitZ();
+      const Vector3d omega = fromBladeAxes(motion[0] + 2 * M_PI * k / blades_).transpose() * rates + motion[1] * Vector3d::UnitZ();
       for (Index j = 0; j < pitch_rate.size() / blades_; ++j) {
-        const auto three = [&](const Vector& port, Index components) {
-          const double* first = port.data() + components * j * blades_ + k;
-          return Vector3d(first[0], first[blades_], first[2 * blades_]);
-        };
-        const Vector3d f = three(loads, 4), r = three(position, 3), v = three(velocity, 3);
-        const double pitching = loads[(4 * j + 3) * blades_ + k];
-        f_sum += R * f;
-        m_sum += R * (r.cross(f) + pitching * along);
-        power += f.dot(v) + pitching * (omega.dot(along) + pitch_rate[j * blades_ + k]);
+        const double *f = loads.data() + 4 * j * blades_ + k, *v = velocity.data() + 3 * j * blades_ + k;
+        power += f[0] * v[0] + f[blades_] * v[blades_] + f[2 * blades_] * v[2 * blades_];
+        power += f[3 * blades_] * (omega.dot(along) + pitch_rate[j * blades_ + k]);
       }
       link_power -= root.segment<3>(6 * k + 3).dot(along) * link_rate[k];
     }
-    force = polar(f_sum);
-    moment = axial(m_sum);
   }
 
   bool clockwise_, elastic_, sprung_;

@@ -37,6 +37,7 @@ std::vector<System> systems() {
           {"elastic_rotor", elastic({}), 1e-4},
           {"elastic_rotor_drees", elastic({"subsystems.inflow.type=drees_inflow", "subsystems.mast.type=rigid_mast", "subsystems.fuselage.mode=free"}), 1e-4},
           {"elastic_rotor_uniform", elastic({"subsystems.inflow.type=uniform_inflow", "subsystems.fuselage.mode=spring2", "subsystems.fuselage.mass=1972.4"}), 1e-4},
+          {"elastic_rotor_prescribed", elastic({"subsystems.inflow={type: prescribed_inflow, mean: 0.04, sine: -0.01, cosine: 0.02}", "subsystems.fuselage.mode=rigid"}), 1e-4},
           {"monolithic", [](const Overrides& more) {
              return Configuration::parse("simulation: {rotor_speed: 6.63, step: 1.0e-3}\nsubsystems:\n"
                                          "  rotor: {type: monolithic_lag_rotor, mast_stiffness: 3.0e+4, initial: {lag_1: 0.01}}\n", "monolithic", more);
