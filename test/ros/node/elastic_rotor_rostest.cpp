@@ -33,10 +33,12 @@ struct ElasticRotor : ::testing::Test {
   ros::Publisher wrench = handle.advertise<geometry_msgs::WrenchStamped>("rotor/external_wrench", 1);
   std::uint64_t reached = 0;
 
+  /// In lock step nothing moves, and nothing is published, before the first command.
   void begin() {
     node.set("config", shippedConfig("bo105.yaml")).set("real_time_factor", 0.0).set("lock_step", kBatch).set("publish_every", 4);
     node.start();
-    ASSERT_TRUE(eventually([&] { return swashplate.getNumSubscribers() == 1 && wind.getNumSubscribers() == 1 && wrench.getNumSubscribers() == 1; }, 60.0)) << node.output();
+    ASSERT_TRUE(eventually([&] { return swashplate.getNumSubscribers() == 1 && wind.getNumSubscribers() == 1 && wrench.getNumSubscribers() == 1 && states.connected(); }, 60.0))
+        << node.output();
   }
 
   /// Advances by that many batches; the mean over the last one.
@@ -84,7 +86,7 @@ TEST_F(ElasticRotor, answersTheSwashplateWithTheRightSignsAndWithoutAGap) {
 
   const std::vector<RotorState> all = states.messages();
   for (std::size_t i = 0; i < all.size(); ++i) {
-    ASSERT_EQ(all[i].step, 4 * i);
+    ASSERT_EQ(all[i].step, all.front().step + 4 * i);
     const RotorState& s = all[i];
     ASSERT_EQ(s.flap.size(), 4u);
     ASSERT_EQ(s.inflow.size(), 3u);
@@ -93,6 +95,8 @@ TEST_F(ElasticRotor, answersTheSwashplateWithTheRightSignsAndWithoutAGap) {
     EXPECT_NEAR(s.flap_cosine, 0.5 * ((s.flap[0] - s.flap[2]) * std::cos(s.azimuth) - (s.flap[1] - s.flap[3]) * std::sin(s.azimuth)), 1e-12);
     if (HasFailure()) break;
   }
+  EXPECT_LT(all.front().step, static_cast<std::uint64_t>(kBatch));
+  EXPECT_EQ(states.last().step, reached);
   EXPECT_EQ(states.last().dropped, 0u);
 }
 
@@ -143,6 +147,7 @@ TEST_F(ElasticRotor, anUpwardForceLiftsTheFuselageByWhatItsSpringsYield) {
 TEST_F(ElasticRotor, bladesAreDrawnDeformed) {
   Collector<visualization_msgs::MarkerArray> pictures{"rotor/blades"};
   begin();
+  ASSERT_TRUE(eventually([&] { return pictures.connected(); }));
   run(6, kCollective);
   ASSERT_TRUE(pictures.waitForSize(2));
   const visualization_msgs::MarkerArray picture = pictures.last();

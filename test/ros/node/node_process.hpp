@@ -127,6 +127,8 @@ class Collector {
     const std::lock_guard<std::mutex> lock(mutex_);
     return messages_.empty() ? Message() : messages_.back();
   }
+  /// Whether a publisher is connected: what it sends from now on will arrive.
+  bool connected() const { return subscriber_.getNumPublishers() > 0; }
   /// Messages per second of real time, between the first and the last.
   double rate() const {
     const std::lock_guard<std::mutex> lock(mutex_);
