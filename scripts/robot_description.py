@@ -3,7 +3,7 @@
 
 rotor_joint's position is the azimuth psi in the sense of rotation: 0 puts blade 1 over the tail. Blade frames: x outboard, z up; positive
 joint angles are flap up, lead, nose up, also on a clockwise rotor, whose blades follow each other the other way round. Blade 1 has the
-orange tip. Elastic blades are drawn by the node (rotor/blades), here they have only their grips.
+orange tip. Elastic blades are drawn by the node (rotor/blades, blade 1 with an orange shank); here they have only their grips.
 A configuration that cannot be read is the node's to complain about: the picture of a usual rotor takes its place.
 """
 import argparse

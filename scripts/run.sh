@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs the rotor in real time with a live status line; Ctrl-C ends it.
 # usage: run.sh [CONFIG] [--duration S] [--headless] [NAME:=VALUE]...
-#   CONFIG        configuration file, or the name of one in config/ (default: lag_rotor_controlled)
+#   CONFIG        configuration file, or the name of one in config/ (default: bo105)
 #   --duration S  end after S seconds
 #   --headless    no rviz, even when there is a display
 #   NAME:=VALUE   argument of launch/rotor.launch, e.g. record:=true, real_time_factor:=0.5, lcm:=false
@@ -16,7 +16,7 @@ usage() { sed -n '2,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
 refuse() { echo "run.sh: $*; see run.sh --help" >&2; exit 2; }
 
 # --- command line
-config=lag_rotor_controlled duration="" headless=false arguments=() config_given=false
+config=bo105 duration="" headless=false arguments=() config_given=false
 while [ $# -gt 0 ]; do
   case $1 in
     -h | --help) usage; exit 0 ;;

@@ -45,11 +45,16 @@ def time_histories(recording, title, file):
     degrees = 180 / np.pi
     force, moment = recording.force * 1e-3, recording.moment * 1e-3
     displacement = (recording.position - recording.position[0]) * 1e3
-    figure, axes = plt.subplots(4, 2, sharex=True, figsize=(14, 10))
+    elastic = np.any(recording.flap) or np.any(recording.tip_twist)
+    rows = 5 if elastic else 4
+    figure, axes = plt.subplots(rows, 2, sharex=True, figsize=(14, 2.5 * rows))
+
+    def per_blade(values):
+        return [(f"blade {k + 1}", values[:, k] * degrees) for k in range(recording.blades)]
     figure.suptitle(title, x=0.01, ha="left")
     draw(axes[0, 0], recording, [("collective", recording.collective * degrees), ("lateral", recording.lateral_cyclic * degrees),
                                  ("longitudinal", recording.longitudinal_cyclic * degrees)], "[deg]", "Command in effect")
-    draw(axes[0, 1], recording, [(f"blade {k + 1}", recording.lag[:, k] * degrees) for k in range(recording.blades)], "[deg]",
+    draw(axes[0, 1], recording, per_blade(recording.lag), "[deg]",
          "Lag angles, lead positive")
     draw(axes[1, 0], recording, [("forward", force[:, 0]), ("left", force[:, 1])], "[kN]", "In-plane hub force on the fuselage")
     draw(axes[1, 1], recording, [("thrust", force[:, 2])], "[kN]", "Thrust")
@@ -59,7 +64,10 @@ def time_histories(recording, title, file):
          "Fuselage displacement since the start, odom")
     draw(axes[3, 1], recording, [(name, recording.velocity[:, i]) for i, name in enumerate(("forward", "left", "up"))], "[m/s]",
          "Fuselage velocity, base_link")
-    for axis in axes[3]:
+    if elastic:
+        draw(axes[4, 0], recording, per_blade(recording.flap), "[deg]", "Flap angles, up positive")
+        draw(axes[4, 1], recording, per_blade(recording.tip_twist), "[deg]", "Elastic twist of the tips, nose up positive")
+    for axis in axes[-1]:
         axis.set_xlabel("simulated time [s]" + ("     red lines: missing messages" if recording.gaps else ""))
     mark_gaps(axes.flat, recording)
     figure.align_ylabels(axes)
@@ -97,7 +105,7 @@ def multiblade(recording, title, file):
         for label, values in (("collective", collective), ("cosine", cosine), ("sine", sine)):
             row[0].plot(*broken(recording, values * degrees), label=label)
         row[0].set(ylabel="[deg]", title=f"Multiblade {name} coordinates", xlabel="simulated time [s]")
-        row[0].legend(loc="upper right", ncols=3)
+        row[0].legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3, borderaxespad=0.2)
         row[1].set(title=f"Spectrum of the {name} whirl (cosine + i sine)", ylabel="amplitude [deg]",
                    xlabel="frequency [1/rev], negative: regressive")
         whirl_spectrum(row[1], recording, cosine, sine)
@@ -137,7 +145,7 @@ def lag_damping(recording, damping, title, file):
     for name in ("collective", "cosine", "sine"):
         top.plot(time, getattr(recording, f"lag_{name}")[damping.part] * degrees, label=name)
     top.set(title=f"Multiblade lag coordinates: {damping.note}", ylabel="[deg]", xlabel="simulated time [s]")
-    top.legend(loc="upper right", ncols=3)
+    top.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3, borderaxespad=0.2)
 
     rows = []
     for number, lag in enumerate(damping.found):
@@ -154,7 +162,7 @@ def lag_damping(recording, damping, title, file):
                      "growing" if lag.mode.growth > 0 else "damped"])
     middle.set(title="Moving block: logarithm of the amplitude [rad] and its straight line", ylabel="ln amplitude", xlabel="centre of the block [s]")
     if any(lag.check is not None for lag in damping.found):
-        middle.legend(loc="upper right", fontsize=8)
+        middle.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=8)
     else:
         middle.text(0.5, 0.5, "fewer than two periods per block", transform=middle.transAxes, ha="center", color="#777777")
     table.axis("off")

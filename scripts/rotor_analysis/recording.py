@@ -25,7 +25,7 @@ class Gap:
 class Recording:
     """The state messages of one topic in order of arrival. SI units and radians, axes of RotorState.msg.
 
-    step, epoch (n,) int; the names of SCALARS (n,); lag, pitch (n, blades); force, moment, position, velocity (n, 3).
+    step, epoch (n,) int; the names of SCALARS (n,); lag, flap, tip_twist, pitch (n, blades); force, moment, position, velocity (n, 3).
     stride: step difference of neighbours without loss. gaps: where messages are missing. stretches: slices of neighbours
     without gap, change of epoch or disorder, the longest first.
     """
@@ -40,6 +40,7 @@ class Recording:
         if len(blades) != 1:
             raise RecordingError(f"{topic}: the number of blades changes within the bag: {sorted(blades)}; expected one rotor")
         self.lag = np.array([m.lag for m in messages])
+        self.flap, self.tip_twist = np.array([m.flap for m in messages]), np.array([m.tip_twist for m in messages])
         self.pitch = np.array([m.pitch for m in messages])
 
         def vector(get):

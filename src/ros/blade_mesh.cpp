@@ -59,12 +59,12 @@ void layProfiles(const BladeShapes& shapes, int blade, const RotorGeometry& geom
   const Profile cutout = extended(profiles[0], profiles[1], geometry.root_cutout);
   profiles.push_back(tip);
   profiles.insert(profiles.begin(), cutout);
-  // The shank: straight to the hub, without air load.
+  // The shank: straight to the hub, without air load; orange on blade 1, to tell the azimuth.
   const double grip = kGripRadius * geometry.radius;
   if (geometry.root_cutout < 2.0 * grip) return;
   Profile shank = cutout;
   shank.chord *= kShankWidth;
-  shank.colour = colour(0.42, 0.44, 0.47);
+  shank.colour = blade == 0 ? colour(0.96, 0.45, 0.05) : colour(0.42, 0.44, 0.47);
   Profile root = shank;
   shank.position *= 1.0 - 0.25 * cutout.chord / geometry.root_cutout;
   root.position *= grip / geometry.root_cutout;

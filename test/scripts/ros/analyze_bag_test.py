@@ -43,6 +43,10 @@ class AnalyzeBag(unittest.TestCase):
             picture = matplotlib.image.imread(self.folder / "flight_plots" / f"{name}.png")
             self.assertGreater(np.ptp(picture[:, :, :3]), 0.5, name)
 
+    def test_blades_that_flap_have_rows_of_their_own(self):
+        # Five rows of 2.5 inches instead of four, at 120 dots per inch.
+        self.assertEqual(matplotlib.image.imread(self.folder / "flight_plots" / "time_histories.png").shape[0], 1500)
+
     def test_counts_states_and_gaps(self):
         self.assertIn(f"{self.written} states", self.result.stdout)
         self.assertIn("gaps: 2, 4 messages missing", self.result.stdout)

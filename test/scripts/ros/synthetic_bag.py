@@ -32,7 +32,9 @@ def state(step):
     m.lag_cosine, m.lag_sine = (regressive[i] + progressive[i] for i in (0, 1))
     psi = [m.azimuth + 2 * math.pi * k / BLADES for k in range(BLADES)]
     m.lag = [m.lag_collective + m.lag_cosine * math.cos(p) + m.lag_sine * math.sin(p) for p in psi]
-    m.lag_rate = m.flap = m.flap_rate = m.tip_twist = [0.0] * BLADES
+    m.flap_collective, m.flap_cosine, m.flap_sine = 0.05, 0.01, -0.004
+    m.flap = [m.flap_collective + m.flap_cosine * math.cos(p) + m.flap_sine * math.sin(p) for p in psi]
+    m.lag_rate = m.flap_rate = m.tip_twist = [0.0] * BLADES
     m.collective = math.radians(8.0 if t > 0.1 else 7.0)
     m.lateral_cyclic, m.longitudinal_cyclic = math.radians(1.0), math.radians(-2.0)
     m.pitch = [m.collective] * BLADES
