@@ -96,5 +96,64 @@ TEST(StepPath, makesNoHeapCallInAHundredThousandPacedStepsWithCommandsArriving) 
   EXPECT_GT(requests, 20u);
 }
 
+TEST(StepPath, makesNoHeapCallWithElasticBladesAndDisturbances) {
+  if (!test::heapIsCounted()) GTEST_SKIP() << "the heap cannot be counted here";
+  const Configuration configuration = Configuration::load(HEERK_SOURCE_DIR "/config/bo105.yaml");
+  const std::unique_ptr<Simulation> simulation = buildSimulation(configuration);
+  RotorView view(simulation->system());
+  CommandInput input(readCommandLimits(configuration, simulation->system(), view), false, [] {});
+  HeldInput wind(simulation->system(), "wind", view.windCommand(), {"m/s"});
+  HeldInput wrench(simulation->system(), "external wrench", view.externalWrenchCommand(), {"N", "N", "N", "N m"});
+  ASSERT_TRUE(wind.present() && wrench.present());
+  RotorTask task(*simulation, view, input, {});
+  task.addInput(wind);
+  task.addInput(wrench);
+  struct Watch : Observer {
+    Vector w;
+    void observe(const Sample& sample) noexcept override { w = sample.w; }
+  } watch;
+  simulation->addObserver(watch);
+  ASSERT_EQ(task.step(), StepTask::Result::kOk);  // the watch takes its memory
+  wind.accept({-5.0, 1.0, 0.5});
+  wrench.accept({0.0, 100.0, 2000.0, 50.0, -60.0, 70.0});
+  std::uint64_t calls = 0;
+  {
+    test::HeapCalls heap;
+    for (int k = 0; k < 720; ++k) task.step();
+    calls = heap.count();
+  }
+  EXPECT_EQ(calls, 0u);
+  const std::vector<Index>& w = view.windCommand();
+  EXPECT_EQ(watch.w[w[0]], -5.0);
+  EXPECT_EQ(watch.w[w[1]], 1.0);
+  EXPECT_EQ(watch.w[w[2]], 0.5);
+  const std::vector<Index>& f = view.externalWrenchCommand();
+  EXPECT_EQ(watch.w[f[2]], 2000.0);
+  EXPECT_EQ(watch.w[f[5]], 70.0);
+
+  RotorPicture picture;
+  ASSERT_TRUE(task.newest().read(picture));
+  ASSERT_EQ(picture.blades.blades, 4);
+  ASSERT_EQ(picture.blades.sections, 10);
+  double lift = 0.0;
+  for (int k = 0; k < 4; ++k)
+    for (int i = 0; i < 10; ++i) lift += static_cast<double>(picture.blades.section[k][i].load);
+  // Two revolutions after the start all of the thrust is air load but for what still accelerates blades and fuselage.
+  EXPECT_NEAR(lift, picture.instant.reading.hub_force[2], 0.3 * lift);
+  const BladeShapes::Section& tip = picture.blades.section[0][9];
+  EXPECT_NEAR(tip.position[0], 4.91 - 0.5 * 0.383, 0.02);  // the middle of the outermost of ten segments from 1.08 m on
+  EXPECT_GT(tip.position[2], 0.05);                        // coned
+  EXPECT_GT(tip.chordwise[1], 0.98);                       // the leading edge forward
+
+  const RotorGeometry geometry = readRotorGeometry(configuration);
+  ASSERT_EQ(geometry.sections.size(), 10u);
+  EXPECT_NEAR(geometry.sections[3].width, 0.383, 1e-12);
+  EXPECT_EQ(geometry.sections[3].chord, 0.27);
+  EXPECT_EQ(geometry.radius, 4.91);
+  EXPECT_NEAR(geometry.root_cutout, 1.08, 1e-12);
+  EXPECT_FALSE(geometry.clockwise);
+  EXPECT_TRUE(readRotorGeometry(Configuration::load(HEERK_SOURCE_DIR "/config/bo105.yaml", {"subsystems.fuselage.rotation=cw"})).clockwise);
+}
+
 }  // namespace
 }  // namespace heerk_rotor
