@@ -142,7 +142,7 @@ TEST_F(StateStream, theOtherTopicsAgreeWithTheState) {
   EXPECT_GE(joints.rate(), 36.0);
   EXPECT_LE(markers.rate(), 31.5);
   EXPECT_GE(markers.rate(), 18.0);
-  EXPECT_EQ(markers.last().markers.size(), 6u);  // four blades, tip path, hub force  // four blades and the hub force
+  EXPECT_EQ(markers.last().markers.size(), 6u);  // four blades, tip path, hub force
 }
 
 TEST_F(StateStream, withPublishClockStampsAreSimulationTimeAndTheClockNeverGoesBack) {
