@@ -20,6 +20,11 @@ std::vector<OutputPort> inflowOutputs(std::vector<std::string> feedthrough) {
 
 double readInducedPowerFactor(Section& section) { return section.number("induced_power_factor", 1.0, "-", {0.5, 2.0, false}); }
 
+void acceptKeysOfAllInflowModels(Section& section) {
+  section.flag("corrected_mass", false);
+  for (const char* part : {"mean", "sine", "cosine"}) section.number(part, 0.0, "-", {-1.0, 1.0, false});
+}
+
 WindAxes::WindAxes(double forward, double left) noexcept
     : mu(std::hypot(forward, left)), cosine(mu > 0.0 ? forward / mu : 1.0), sine(mu > 0.0 ? left / mu : 0.0) {}
 

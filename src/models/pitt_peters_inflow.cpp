@@ -57,6 +57,7 @@ Made makePittPetersInflow(Section& section, const BuildContext& context) {
   p.rotor_speed = context.simulation.rotor_speed;
   p.induced_power_factor = readInducedPowerFactor(section);
   p.corrected_mass = section.flag("corrected_mass", p.corrected_mass);
+  acceptKeysOfAllInflowModels(section);
   section.finish();
   return std::make_unique<PittPetersInflow>(p);
 }

@@ -38,23 +38,16 @@ std::vector<OutputPort> PrescribedInflow::outputs() const { return inflowOutputs
 
 void PrescribedInflow::evalOutput(Index, double, const In&, const In& u, Out y) noexcept { y = u.tail(3); }
 
-namespace {
-
-/// One line, `type`, swaps the inflow models: the key of pitt_peters_inflow is accepted without effect.
-void acceptDynamicInflowKeys(Section& section) { section.flag("corrected_mass", false); }
-
-}  // namespace
-
 Made makeUniformInflow(Section& section, const BuildContext&) {
   const double kappa = readInducedPowerFactor(section);
-  acceptDynamicInflowKeys(section);
+  acceptKeysOfAllInflowModels(section);
   section.finish();
   return std::make_unique<UniformInflow>(kappa);
 }
 
 Made makeDreesInflow(Section& section, const BuildContext&) {
   const double kappa = readInducedPowerFactor(section);
-  acceptDynamicInflowKeys(section);
+  acceptKeysOfAllInflowModels(section);
   section.finish();
   return std::make_unique<DreesInflow>(kappa);
 }
@@ -62,8 +55,8 @@ Made makeDreesInflow(Section& section, const BuildContext&) {
 Made makePrescribedInflow(Section& section, const BuildContext&) {
   std::vector<double> inflow;
   for (const char* part : {"mean", "sine", "cosine"}) inflow.push_back(section.number(part, 0.0, "-", {-1.0, 1.0, false}));
-  readInducedPowerFactor(section);  // without effect: one line swaps the models
-  acceptDynamicInflowKeys(section);
+  readInducedPowerFactor(section);  // without effect
+  acceptKeysOfAllInflowModels(section);
   section.finish();
   return std::make_unique<PrescribedInflow>(inflow);
 }

@@ -6,56 +6,16 @@
 #include <Eigen/LU>
 #include <complex>
 
-#include "models/rotor_runs.hpp"
+#include "models/flapping_rotor.hpp"
 
 namespace heerk_rotor {
 namespace {
 
 using namespace test;
+using namespace flapping_rotor;
 
-constexpr double kOmega = 44.4, kR = 4.91, kMass = 5.55, kRho = 1.225, kSlope = 5.73, kLock = 8.0, kDegree = M_PI / 180;
-const double kInertia = kMass * kR * kR * kR / 3.0;
-
-struct Controls {
-  double theta0, twist, theta1c, theta1s, lambda, lambda1c, lambda1s;  // [rad, -]
-};
+constexpr double kDegree = M_PI / 180;
 constexpr Controls kReference{0.24, -0.14, 0.02, -0.05, 0.04, 0.01, 0.004};
-
-std::string digits(double value) { return set("", value).substr(1); }
-
-/// The Bo105 configuration with rigid flapping blades in a wind tunnel, flow edgewise at mu.
-/// Small angles hold in the airloads and in the structure, or in the structure only.
-enum class Kinematics { kSmall, kFullAirloads, kFull };
-Overrides flapping(double mu, const Controls& c, Kinematics kinematics = Kinematics::kSmall) {
-  Overrides list{"subsystems.drive.type=drive", "subsystems.mast.type=rigid_mast", "subsystems.fuselage.mode=rigid", "subsystems.fuselage.gravity=0",
-                 "subsystems.fuselage.shaft_tilt_forward_deg=0", "subsystems.airloads.polar=linear", "subsystems.airloads.compressible=false", "subsystems.airloads.drag=[0.0]",
-                 "subsystems.airloads.tip_loss_factor=1.0", "subsystems.inflow.type=prescribed_inflow", "subsystems.rotor.blades=2", "subsystems.rotor.precone_deg=0",
-                 "subsystems.rotor.zero_twist_radius=0.75", "subsystems.rotor.root_cutout=0", "subsystems.rotor.section_rule=gauss", "subsystems.rotor.sections=6",
-                 "subsystems.rotor.flap_hinge=true", "subsystems.rotor.modes=1", "subsystems.rotor.damping_mass=0", "subsystems.rotor.damping_stiffness=0",
-                 "subsystems.rotor.km1=0", "simulation.newton_tolerance=1e-13"};
-  const auto number = [&](const std::string& key, double value) { list.push_back(set(key, value)); };
-  const auto table = [&](const std::string& key, double value) { list.push_back(set("subsystems.rotor." + key, value)); };
-  list.push_back("subsystems.rotor.nodes=[0.0, 2.0, 4.91]");
-  list.push_back("subsystems.rotor.stations=[0.0, 4.91]");
-  // Stiff against the hinge spring as well; the mode that is kept is at 1 to 1.2 per rev all the same.
-  for (const char* stiffness : {"EI_flap", "EI_lag", "GJ"}) table(stiffness, 1e13);
-  table("mass", kMass);
-  table("twist_deg_per_R", c.twist / kDegree);
-  number("subsystems.airloads.lift_slope", kSlope);
-  number("subsystems.airloads.air_density", kRho);
-  number("subsystems.airloads.chord", kLock * kInertia / (kRho * kSlope * std::pow(kR, 4)));
-  // theta0 is that of the straight root; the hinge turns with the pitch at 0.75 R, which matters with full kinematics only.
-  number("subsystems.swashplate.trim_collective", c.theta0 + 0.75 * c.twist);
-  number("subsystems.swashplate.trim_lateral_cyclic", c.theta1c);
-  number("subsystems.swashplate.trim_longitudinal_cyclic", c.theta1s);
-  number("subsystems.inflow.mean", c.lambda);
-  number("subsystems.inflow.sine", c.lambda1s);
-  number("subsystems.inflow.cosine", c.lambda1c);
-  list.push_back("subsystems.fuselage.wind=[" + digits(-mu * kOmega * kR) + ", 0, 0]");
-  if (kinematics != Kinematics::kFull) list.push_back("subsystems.rotor.kinematics=small_angle");
-  if (kinematics == Kinematics::kSmall) list.push_back("subsystems.airloads.kinematics=small_angle");
-  return list;
-}
 
 struct Flap {
   double mean, cosine, sine;  // beta_0, beta_1c, beta_1s [rad]

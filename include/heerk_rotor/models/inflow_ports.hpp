@@ -17,6 +17,9 @@ std::vector<OutputPort> inflowOutputs(std::vector<std::string> feedthrough);
 /// The key induced_power_factor, kappa: multiplies the induced flow that given loads hold in balance.
 double readInducedPowerFactor(Section& section);
 
+/// One line, `type`, swaps the inflow models: keys that only others of them have are accepted without effect.
+void acceptKeysOfAllInflowModels(Section& section);
+
 enum InflowInput { kThrustCoefficient, kSineCoefficient, kCosineCoefficient, kMuForward, kMuLeft, kMuUp };
 
 /// In-plane flow seen along the direction of flight: wind axes are hub axes turned by the angle delta of the hub's in-plane
