@@ -10,7 +10,11 @@ namespace {
 
 const char* const kFixedColumns = "step [-],time [s],azimuth [rad]";
 
-std::string cell(const Signal& signal) { return "," + signal.name + " [" + (signal.unit.empty() ? "-" : signal.unit) + "]"; }
+/// Quoted when the unit has a comma (ports of forces and moments: "N, N m"), so that a row of names has as many cells as a row of values.
+std::string cell(const Signal& signal) {
+  const std::string text = signal.name + " [" + (signal.unit.empty() ? "-" : signal.unit) + "]";
+  return text.find(',') == std::string::npos ? "," + text : ",\"" + text + "\"";
+}
 
 std::size_t longestRow(const std::vector<Signal>& signals) {
   std::size_t header = std::strlen(kFixedColumns) + 1;
