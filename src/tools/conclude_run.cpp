@@ -2,9 +2,12 @@
 
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <sstream>
 
+#include "heerk_rotor/assembly/file_replacement.hpp"
 #include "heerk_rotor/assembly/snapshot.hpp"
+#include "heerk_rotor/assembly/start_file.hpp"
 #include "heerk_rotor/tools/stop_request.hpp"
 
 namespace heerk_rotor {
@@ -46,6 +49,15 @@ void reportFailure(const SimulateOptions& options, RunSetup& setup, const std::v
 /// The summary's object with further members in front.
 std::string withMembers(const std::string& members, const std::string& object) { return members.empty() ? object : "{" + members + ", " + object.substr(1); }
 
+/// The final state by name, so that a run with another step or other parameters can start from it; a snapshot goes on with the same ones.
+void saveFinalStart(const std::string& file, const RunSetup& setup, const Simulation::Checkpoint& final) {
+  replaceFile(file, startText(setup.simulation->system(), final.x, final.w,
+                              {{"made_by", "simulate"},
+                               {"configuration", std::filesystem::path(setup.configuration.file()).filename().string()},
+                               {"configuration_hash", configurationHash(setup.configuration)},
+                               {"steps", std::to_string(final.step)}}));
+}
+
 bool print(const std::string& text) { return std::fputs(text.c_str(), stdout) >= 0 && std::fflush(stdout) == 0; }
 
 }  // namespace
@@ -84,9 +96,10 @@ int concludeRun(const SimulateOptions& options, RunSetup& setup, const std::vect
   closeRecorders(*companions.recorders, summary);
   if (solutionFailed(summary)) {
     reportFailure(options, setup, signals, *companions.recent);
-  } else if (!options.save_snapshot.empty()) {
+  } else {
     try {
-      saveSnapshot(options.save_snapshot, {setup.configuration.resolvedText(), checkpoint});
+      if (!options.save_snapshot.empty()) saveSnapshot(options.save_snapshot, {setup.configuration.resolvedText(), checkpoint});
+      if (!options.save_start.empty() && !options.trim) saveFinalStart(options.save_start, setup, checkpoint);
     } catch (const std::exception& error) {
       outputFailed(summary, error.what());
     }

@@ -41,7 +41,7 @@ void declare(CLI::App& app, SimulateOptions& options, Words& words) {
   app.add_option("--save-snapshot", options.save_snapshot, "write the final state, to be continued later")->type_name("FILE");
   app.add_option("--load-snapshot", options.load_snapshot, "continue from a snapshot; CONFIG may be left out")->type_name("FILE");
   app.add_flag("--trim", options.trim, "find the periodic motion and controls that the section trim asks for; a run goes on from there");
-  app.add_option("--save-start", options.save_start, "with --trim: write the trimmed start, loaded by the key simulation.start")->type_name("FILE.yaml");
+  app.add_option("--save-start", options.save_start, "write the final state as a start, with --trim the trimmed one; loaded by the key simulation.start")->type_name("FILE.yaml");
   app.add_flag("--stability", options.stability, "eigenvalues of the map of one step at the start");
   app.add_option("--show-coupling", words.coupling, "print subsystems, connections, loops and their sparsity; draw them into a picture")
       ->type_name("[FILE.svg]")->expected(0, 1);
@@ -171,7 +171,6 @@ SimulateOptions parseSimulateOptions(int argc, const char* const* argv) {
   if (options.configuration.empty() && options.load_snapshot.empty() && problems.empty())
     problems.add({"command line", "CONFIG", "nothing", "a configuration file, or --load-snapshot FILE; see --help"});
 
-  if (!options.save_start.empty() && !options.trim) problems.add({"command line", "--save-start", options.save_start, "--trim, whose result it writes"});
   if ((options.trim || options.stability) && !options.load_snapshot.empty())
     problems.add({"command line", options.trim ? "--trim" : "--stability", "", "a start at model time 0, not --load-snapshot"});
   if (app.count("--show-coupling") > 0) options.show_coupling = words.coupling;

@@ -8,7 +8,7 @@
 
 namespace heerk_rotor {
 
-/// A start file holds states and commands by name, as `simulate --trim --save-start FILE` writes them, and the key
+/// A start file holds states and commands by name, as `simulate --save-start FILE` writes them (with --trim: the trimmed ones), and the key
 /// simulation.start of a configuration loads them:
 ///   provenance: {configuration: NAME, configuration_hash: 16 digits, ...}      for people, without effect
 ///   states:   {rotor: {lag_1: -0.034, ...}, ...}

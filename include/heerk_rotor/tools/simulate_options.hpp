@@ -20,7 +20,7 @@ struct SimulateOptions {
   bool trim = false, stability = false;
   std::optional<std::string> show_coupling;  // picture to write, or ""
   bool evaluation_counts = false;
-  std::string save_start;               // with trim: start file to write, or ""
+  std::string save_start;               // start file to write, or ""; with trim the trimmed start
   bool json = false, quiet = false, list_signals = false;
   std::string help;                     // not empty: print it and do nothing else
 };
