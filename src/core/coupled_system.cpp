@@ -1,5 +1,6 @@
 #include "heerk_rotor/core/coupled_system.hpp"
 
+#include <cstring>
 #include <stdexcept>
 
 #include "heerk_rotor/core/nearest_name.hpp"
@@ -67,6 +68,12 @@ bool CoupledSystem::gather(Index number, const Vector& y, const Vector& w, Vecto
   const std::size_t sources = input.source_begin.size();
   const double* first = sources > 0 ? y.data() + input.source_begin[0]
                                     : input.command >= 0 ? w.data() + input.command : input.default_value.data();
+  if (sources <= 1) {
+    const std::size_t bytes = static_cast<std::size_t>(input.size) * sizeof(double);
+    if (std::memcmp(target, first, bytes) == 0) return false;
+    std::memcpy(target, first, bytes);
+    return true;
+  }
   bool changed = false;
   for (Index i = 0; i < input.size; ++i) {
     double sum = first[i];

@@ -48,7 +48,7 @@ BladeDynamics<L>::BladeDynamics(const FeRotorParameters& p)
   for (auto& v : product_) v.assign(dofs, Vec{});
   for (auto* v : {&coriolis_rate_, &nodal_load_}) v->assign(dofs, Vec{});
   unused_.assign(dofs + 2 * kNodeDofs, Vec{});
-  load_key_.resize(sizeof(BladeAxes<L>) / sizeof(double) + size(4 * c_.sections * c_.blades));
+  load_key_.resize(size(4 * c_.sections * c_.blades));
   acceleration_key_.resize(sizeof(HubAcceleration<L>) / sizeof(double));
 }
 
@@ -198,13 +198,11 @@ SectionMotion<L> BladeDynamics<L>::evaluate(const BladeCoefficients::SectionShap
 }
 
 template <int L>
-void BladeDynamics<L>::load(const BladeAxes<L>& axes, const double* loads) noexcept {
-  const std::size_t axes_size = sizeof axes / sizeof(double), load_size = load_key_.size() - axes_size;
-  if (load_valid_ && std::memcmp(load_key_.data(), &axes, sizeof axes) == 0 &&
-      std::memcmp(load_key_.data() + axes_size, loads, load_size * sizeof(double)) == 0)
-    return;
-  std::memcpy(load_key_.data(), &axes, sizeof axes);
-  std::memcpy(load_key_.data() + axes_size, loads, load_size * sizeof(double));
+void BladeDynamics<L>::load(const BladeAxes<L>& axes, std::uint64_t version, const double* loads) noexcept {
+  const std::size_t bytes = load_key_.size() * sizeof(double);
+  if (load_valid_ && axes_version_ == version && std::memcmp(load_key_.data(), loads, bytes) == 0) return;
+  std::memcpy(load_key_.data(), loads, bytes);
+  axes_version_ = version;
   load_valid_ = true;
   acceleration_valid_ = false;
   c_.copies == 1 ? loadImpl<true>(axes, loads) : loadImpl<false>(axes, loads);

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "blade_coefficients.hpp"
@@ -68,8 +69,9 @@ class BladeDynamics {
   SectionMotion<L> displacement(int j) const noexcept { return evaluate(c_.shapes[static_cast<std::size_t>(j)], d_); }
   SectionMotion<L> displacementRate(int j) const noexcept { return evaluate(c_.shapes[static_cast<std::size_t>(j)], d_rate_); }
 
-  /// Level 2. loads: [section][fx fy fz in R, pitching moment][blade].
-  void load(const BladeAxes<L>& axes, const double* loads) noexcept;
+  /// Level 2. loads: [section][fx fy fz in R, pitching moment][blade]. version: differs whenever the axes do, and stands for them when
+  /// arguments are compared.
+  void load(const BladeAxes<L>& axes, std::uint64_t version, const double* loads) noexcept;
 
   /// Level 3. Root lead, precone and pitch rate are accounted for here.
   void accelerate(const BladeAxes<L>& axes, const HubAcceleration<L>& hub) noexcept;
@@ -126,6 +128,7 @@ class BladeDynamics {
   // Level 2
   std::vector<double> load_key_;
   bool load_valid_ = false;
+  std::uint64_t axes_version_ = 0;
   std::vector<Vec> nodal_load_;
   std::vector<Vec> modal_load_;                 // without the hub's accelerations
   Vec3 air_force_, air_moment_;                 // about the origin of B, in B

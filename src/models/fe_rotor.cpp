@@ -1,6 +1,9 @@
 #include "heerk_rotor/models/fe_rotor.hpp"
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <vector>
 
 #include "blade_dynamics.hpp"
 #include "heerk_rotor/aero/branch_free_math.hpp"
@@ -47,7 +50,10 @@ class FeRotor : public SubsystemModel {
       blade_sine_[k] = exactAtQuarters(std::sin(angle));
     }
     precone_sine_ = std::sin(parameters.precone);
-    precone_cosine_ = std::cos(parameters.precone);
+    axes_.precone_sine = sameLanes<L>(precone_sine_);
+    axes_.precone_cosine = sameLanes<L>(std::cos(parameters.precone));
+    axes_.pitch_cosine = sameLanes<L>(1.0);
+    axes_key_.resize(static_cast<std::size_t>(offsets_[kLoads]));
   }
 
   std::vector<State> states() const override {
@@ -156,37 +162,34 @@ class FeRotor : public SubsystemModel {
 
   const double* input(const In& u, Input_ port) const noexcept { return u.data() + offsets_[port]; }
 
-  BladeAxes<L> pitchAxes(const In& u) const noexcept {
-    BladeAxes<L> axes{};
-    axes.precone_sine = sameLanes<L>(precone_sine_);
-    axes.precone_cosine = sameLanes<L>(precone_cosine_);
-    axes.pitch_cosine = sameLanes<L>(1.0);
-    if (p_.small_angle) return axes;
+  /// The axes depend on hub_motion, mount_velocity, pitch and pitch_rate, which begin u in this order. They are made anew only when one of
+  /// these differs bitwise from last time: all ports of an instant share them. What a port does not feed through (shape: all but the pitch)
+  /// has no effect on the members it reads.
+  const BladeAxes<L>& movingAxes(const In& u) noexcept {
+    const std::size_t bytes = axes_key_.size() * sizeof(double);
+    if (axes_version_ > 0 && std::memcmp(axes_key_.data(), u.data(), bytes) == 0) return axes_;
+    std::memcpy(axes_key_.data(), u.data(), bytes);
+    ++axes_version_;
     const Vec pitch = loadLanes<L>(input(u, kPitch), blades_);
-    for (int k = 0; k < L; ++k) {
+    for (int k = 0; k < L && !p_.small_angle; ++k) {
       const SineCosine value = sineCosine(pitch[k]);
-      axes.pitch_sine[k] = value.sine;
-      axes.pitch_cosine[k] = value.cosine;
+      axes_.pitch_sine[k] = value.sine;
+      axes_.pitch_cosine[k] = value.cosine;
     }
-    return axes;
-  }
-
-  BladeAxes<L> movingAxes(const In& u) const noexcept {
-    BladeAxes<L> axes = pitchAxes(u);
     const double* motion = input(u, kHubMotion);
     const double s = std::sin(motion[0]), c = std::cos(motion[0]);
-    axes.sine = s * blade_cosine_ + c * blade_sine_;
-    axes.cosine = c * blade_cosine_ - s * blade_sine_;
-    axes.omega = axes.fromHub(input(u, kMountVelocity) + 3);
-    axes.omega.z += motion[1];
-    axes.speed = sameLanes<L>(motion[1]);
-    if (!p_.small_angle) axes.pitch_rate = loadLanes<L>(input(u, kPitchRate), blades_);
-    return axes;
+    axes_.sine = s * blade_cosine_ + c * blade_sine_;
+    axes_.cosine = c * blade_cosine_ - s * blade_sine_;
+    axes_.omega = axes_.fromHub(input(u, kMountVelocity) + 3);
+    axes_.omega.z += motion[1];
+    axes_.speed = sameLanes<L>(motion[1]);
+    if (!p_.small_angle) axes_.pitch_rate = loadLanes<L>(input(u, kPitchRate), blades_);
+    return axes_;
   }
 
   void accelerate(const In& u) noexcept {
-    const BladeAxes<L> axes = movingAxes(u);
-    dynamics_.load(axes, input(u, kLoads));
+    const BladeAxes<L>& axes = movingAxes(u);
+    dynamics_.load(axes, axes_version_, input(u, kLoads));
     HubAcceleration<L> hub{};
     const double* mount = input(u, kMountAcceleration);
     hub.linear = axes.fromHub(mount);
@@ -211,7 +214,7 @@ class FeRotor : public SubsystemModel {
   }
 
   void sectionGeometry(Index port, const In& u, Out y) noexcept {
-    const BladeAxes<L> axes = port == kSectionVelocity ? movingAxes(u) : pitchAxes(u);
+    const BladeAxes<L>& axes = movingAxes(u);
     const Vec pitch = loadLanes<L>(input(u, port == kSectionPitchRate ? kPitchRate : kPitch), blades_);
     const Vec3 lead{Vec{}, sameLanes<L>(dynamics_.rootLead()), Vec{}};
     Vec3 hub_velocity{}, omega_B{};
@@ -270,7 +273,7 @@ class FeRotor : public SubsystemModel {
 
   void sectionAcceleration(const In& u, Out y) noexcept {
     accelerate(u);
-    const BladeAxes<L> axes = movingAxes(u);
+    const BladeAxes<L>& axes = movingAxes(u);
     const double* mount = input(u, kMountAcceleration);
     const double* gravity = input(u, kHubGravity);
     const double linear_H[3] = {mount[0] + gravity[0], mount[1] + gravity[1], mount[2] + gravity[2]};
@@ -309,7 +312,7 @@ class FeRotor : public SubsystemModel {
       for (int k = 0; k < blades_; ++k) y.segment(6 * k, 6) << force.x[k], force.y[k], force.z[k], moment.x[k], moment.y[k], moment.z[k];
       return;
     }
-    const BladeAxes<L> axes = movingAxes(u);
+    const BladeAxes<L>& axes = movingAxes(u);
     const Vec3 in_hub = axes.toHub(port == kRotorForce ? force : moment);
     if (port == kBladeReaction) y[0] = sum(in_hub.z);
     else if (port == kTiltingMoment) y << sum(in_hub.x), sum(in_hub.y);
@@ -323,11 +326,10 @@ class FeRotor : public SubsystemModel {
       storeLanes<L>(d.twist, blades_, y.data());
       return;
     }
-    BladeAxes<L> axes = pitchAxes(u);
+    const BladeAxes<L>& axes = movingAxes(u);
     const Vec3 position{sameLanes<L>(p_.sections.radius), d.v, d.w};
     Vec3 value = position;
     if (port != kLag && port != kFlap) {
-      if (!p_.small_angle) axes.pitch_rate = loadLanes<L>(input(u, kPitchRate), blades_);
       const SectionMotion<L> rate = dynamics_.displacementRate(j);
       const Vec3 relative{Vec{}, rate.v, rate.w}, spin{axes.pitch_rate, Vec{}, Vec{}};
       value = cross(spin, position) + relative;
@@ -348,7 +350,7 @@ class FeRotor : public SubsystemModel {
       y[0] = sum(dynamics_.dissipation());
       return;
     }
-    const BladeAxes<L> axes = movingAxes(u);
+    const BladeAxes<L>& axes = movingAxes(u);
     if (port == kEnergy) {
       y[0] = sum(dynamics_.energy(axes, hubVelocity(axes, u)));
       return;
@@ -364,7 +366,10 @@ class FeRotor : public SubsystemModel {
   BladeDynamics<L> dynamics_;
   Index offsets_[kInputs] = {};
   Vec blade_sine_{}, blade_cosine_{};
-  double precone_sine_, precone_cosine_;
+  double precone_sine_;
+  BladeAxes<L> axes_{};                // of axes_key_
+  std::vector<double> axes_key_;       // (10 + 2 blades) the inputs that it was made of
+  std::uint64_t axes_version_ = 0;     // 0: not made yet
 };
 
 }  // namespace
