@@ -16,7 +16,8 @@ using Eigen::Vector3d;
 using test::operator+;  // not hidden by that of Content
 
 constexpr double kOmega = 44.4, kGravity = 9.80665, kHubInertia = 50.0, kMastStiffness = 3e6, kMastDamping = 500.0, kFuselageMass = 1972.4;
-constexpr double kPrecone = 2.5 * M_PI / 180;
+constexpr double kPrecone = 2.5 * M_PI / 180, kEngineInertia = 300.0;
+const std::string kGovernor = "subsystems.drive={type: governed_drive, inertia: 300.0, engine_torque: 3000.0, max_torque: 16000.0}";
 
 /// Momentum and angular momentum about the origin of odom, both in odom axes, and energy.
 struct Content {
@@ -32,6 +33,7 @@ class Aircraft {
       : clockwise_(std::count(overrides.begin(), overrides.end(), "subsystems.fuselage.rotation=cw") > 0),
         elastic_(std::count(overrides.begin(), overrides.end(), "subsystems.mast.type=rigid_mast") == 0),
         sprung_(std::count(overrides.begin(), overrides.end(), "subsystems.fuselage.mode=free") == 0),
+        governed_(std::count(overrides.begin(), overrides.end(), kGovernor) == 1),
         now(configuration(overrides)), undamped_(configuration(overrides + Overrides{"subsystems.fuselage.gear_damping=[0, 0, 0, 0, 0, 0]"})) {
     for (const CoupledSystem::Output& output : now.system.outputs())
       if (output.name == "rotor.flap") blades_ = static_cast<int>(output.size);
@@ -41,9 +43,14 @@ class Aircraft {
   static Configuration configuration(const Overrides& overrides) {
     // Without the options that use them, these ports are absent.
     const bool virtual_mass = std::count(overrides.begin(), overrides.end(), "subsystems.airloads.virtual_mass=true") > 0;
-    const std::vector<std::string> more{"[rotor.section_acceleration, airloads.section_acceleration]", "[rotor.section_pitch_rate, airloads.section_pitch_rate]"};
-    return shippedWith(virtual_mass ? more : std::vector<std::string>{}, "bo105.yaml",
-                       Overrides{"subsystems.airloads.polar=linear", "simulation.newton_tolerance=1e-13"} + overrides);
+    const bool governed = std::count(overrides.begin(), overrides.end(), kGovernor) > 0;
+    Overrides more;
+    if (virtual_mass) more = {"[rotor.section_acceleration, airloads.section_acceleration]", "[rotor.section_pitch_rate, airloads.section_pitch_rate]"};
+    // With an engine of its own inertia the fuselage carries the engine's reaction in place of the mast's (mast.torque meets its engine instead).
+    if (governed) more = {"[mast.torque, drive.mast_torque]", "[drive.gyroscopic_moment, fuselage.tilting_moment]", "[fuselage.mount_velocity, drive.mount_velocity]",
+                          "[fuselage.mount_acceleration, drive.mount_acceleration]"};
+    const std::string engine = "connections." + std::to_string(7 + more.size()) + "=[drive.torque, fuselage.mast_torque]";
+    return shippedWith(more, "bo105.yaml", (governed ? Overrides{engine} : Overrides{}) + Overrides{"subsystems.airloads.polar=linear", "simulation.newton_tolerance=1e-13"} + overrides);
   }
 
   /// Blades' mass and first moment about the hub centre (hub axes), from how their momenta answer to a velocity of the hub.
@@ -66,10 +73,11 @@ class Aircraft {
     bladeMass(mass, first_moment);
     Content c;
     c.momentum = now.port3("fuselage.fuselage_momentum") + momentum;
+    const double engine_spin = governed_ ? now.port("drive.drive_angular_momentum")[0] : 0.0;
     c.angular = now.port3("fuselage.fuselage_angular_momentum") + hub.cross(momentum) +
-                R * axial(now.port3("rotor.angular_momentum") + spin * Vector3d::UnitZ());
+                R * axial(now.port3("rotor.angular_momentum") + (spin + engine_spin) * Vector3d::UnitZ());
     const double twist = now.port("mast.twist")[0];
-    c.energy = now.port("fuselage.fuselage_energy")[0] + now.port("rotor.blade_energy")[0] + 0.5 * spin * spin / kHubInertia +
+    c.energy = now.port("fuselage.fuselage_energy")[0] + now.port("rotor.blade_energy")[0] + 0.5 * spin * spin / kHubInertia + 0.5 * engine_spin * engine_spin / kEngineInertia +
                (elastic_ ? 0.5 * kMastStiffness * twist * twist : 0.0) + kGravity * (mass * hub[2] + (R * first_moment)[2]);
     return c;
   }
@@ -112,7 +120,8 @@ class Aircraft {
 
     // The engine turns the drive against the fuselage, which receives the torque that the drive gives to the mast.
     const Vector motion = now.port("mast.hub_motion");
-    const double torque = now.port("mast.torque")[0], drive_speed = motion[1] - motion[3];
+    // An engine with inertia keeps part of its torque to itself.
+    const double torque = governed_ ? -now.port("drive.engine_torque")[0] : now.port("mast.torque")[0], drive_speed = motion[1] - motion[3];
     add(Vector3d::Zero(), Vector3d::Zero(), -torque * drive_speed - (elastic_ ? kMastDamping * motion[3] * motion[3] : 0.0));
     add(Vector3d::Zero(), Vector3d::Zero(), -now.port("rotor.structural_dissipation")[0]);
     return sum;
@@ -153,7 +162,7 @@ class Aircraft {
     }
   }
 
-  bool clockwise_, elastic_, sprung_;
+  bool clockwise_, elastic_, sprung_, governed_;
   int blades_ = 0;
 
  public:
@@ -180,6 +189,7 @@ const std::vector<Case>& cases() {
       {"free, five unequal blades off their axis, skew inertia",
        flying + Overrides{"subsystems.rotor.blades=5", "subsystems.rotor.mass_factor=[1.0, 1.1, 0.95, 1.02, 0.9]", "subsystems.rotor.e=0.01", "subsystems.rotor.eA=0.006",
                           "subsystems.fuselage.products_of_inertia=[50.0, 300.0, -80.0]", "subsystems.fuselage.hub_offset=[0.2, -0.1, 1.5]"}},
+      {"free, engine with governor", flying + Overrides{kGovernor}},
       {"springs, elastic mast", standing},
       {"springs, rigid mast", standing + Overrides{rigid}},
       {"springs, virtual mass and lagging lift",
@@ -242,6 +252,51 @@ TEST(CoupledBalance, momentumAndEnergyOfTheAircraftChangeByOutsideLoadsOnly) {
   report("linear momentum, relative to the loads", worst[0]);
   report("angular momentum, relative to the moments", worst[1]);
   report("energy, relative to the powers", worst[2]);
+}
+
+/// The same for what the integrator makes of it: change of the content over a stretch of a simulated transient against the integral of the loads
+/// (Boole's rule, order 6, at the steps).
+TEST(CoupledBalance, simulatedMotionKeepsTheBalanceToTheOrderOfTheMethod) {
+  for (const Case& c : {cases()[0], cases()[4]}) {
+    double previous[3] = {};
+    for (const double step : {0.2, 0.1}) {
+      const Overrides overrides = c.overrides + Overrides{set("simulation.azimuth_step_deg", step)};
+      Aircraft aircraft(overrides);
+      auto simulation = buildSimulation(Aircraft::configuration(overrides));
+      ASSERT_TRUE(advance(*simulation, std::lround(60 / step), aircraft.now.w));
+      aircraft.now.command("swashplate.collective", 0.17);
+      aircraft.now.command("swashplate.longitudinal_cyclic", -0.05);
+      aircraft.now.command("fuselage.wind_x", -25.0);
+      aircraft.now.command("drive.speed", 42.0);
+      ASSERT_TRUE(advance(*simulation, std::lround(4 / step), aircraft.now.w));
+
+      const long steps = std::lround(24 / step);
+      const double boole[] = {14.0, 32.0, 12.0, 32.0};  // of 4 h / 90 2/4, ends of the stretch 7
+      Content change, integral, size;
+      for (long n = 0; n <= steps; ++n) {
+        const double t = simulation->modelTime();
+        ASSERT_TRUE(aircraft.now.solve(t, simulation->state()));
+        if (n == 0) change = -1.0 * aircraft.content();
+        if (n == steps) change = change + aircraft.content();
+        const double weight = (n == 0 || n == steps ? 7.0 : boole[n % 4]) * 4.0 * simulation->stepSize() / 90.0;
+        Content magnitude;
+        integral = integral + weight * aircraft.loads(t, simulation->state(), magnitude);
+        size = size + weight * magnitude;
+        if (n < steps) ASSERT_TRUE(advance(*simulation, 1, aircraft.now.w));
+      }
+      const Content error = change + -1.0 * integral;
+      const double errors[] = {error.momentum.norm() / size.momentum.norm(), error.angular.norm() / size.angular.norm(), std::abs(error.energy) / size.energy};
+      const char* const names[] = {"momentum", "angular momentum", "energy"};
+      for (int i = 0; i < 3; ++i) {
+        report(std::string(names[i]) + ", " + c.name + ", step [deg] " + std::to_string(step), errors[i]);
+        if (step < 0.2) {
+          EXPECT_LE(errors[i], std::max(previous[i] / 10.0, 1e-9)) << names[i] << ", " << c.name;  // order 4: 16; or round-off of the contents
+          EXPECT_LE(errors[i], 1e-7) << names[i] << ", " << c.name;
+        }
+        previous[i] = errors[i];
+      }
+    }
+  }
 }
 
 }  // namespace
