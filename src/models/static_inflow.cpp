@@ -31,7 +31,8 @@ void DreesInflow::evalOutput(Index, double, const In&, const In& u, Out y) noexc
 std::vector<InputPort> PrescribedInflow::inputs() const {
   std::vector<InputPort> list = inflowInputs();
   list[0].unconnected = Unconnected::kDefault;
-  list.push_back({"command", 3, "-", "induced flow over Omega R, downwards positive: mean, sine and cosine part", Unconnected::kCommand, inflow_, {"mean", "sine", "cosine"}});
+  list.push_back({"command", 3, "-", "induced flow over Omega R, downwards positive: mean, sine and cosine part", Unconnected::kCommand, inflow_,
+      {"mean", "sine", "cosine"}});
   return list;
 }
 std::vector<OutputPort> PrescribedInflow::outputs() const { return inflowOutputs({"command"}); }

@@ -9,7 +9,8 @@ namespace heerk_rotor::test {
 class CoupledInstant {
  public:
   explicit CoupledInstant(const Configuration& configuration, double tolerance = 1e-13)
-      : system(buildSystem(configuration)), w(system.defaultCommand()), solver_(system, SolverOptions{tolerance, 30, true}, 0.0, system.initialState(), w) {}
+      : system(buildSystem(configuration)), w(system.defaultCommand()), solver_(system, SolverOptions{tolerance, 30, true}, 0.0,
+          system.initialState(), w) {}
 
   /// False when the algebraic part has no solution.
   bool solve(double t, const Vector& x) {

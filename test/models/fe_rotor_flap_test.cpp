@@ -68,7 +68,8 @@ Flap harmonicBalance(double mu, const Controls& c, int harmonics) {
                              c.lambda * (1.0 / 3 + 0.5 * mu * s) - (c.lambda1s * s + c.lambda1c * co) * damping);
     for (int j = 0; j < size; ++j) {
       const int n = (j + 1) / 2;
-      const double value = j % 2 == 1 ? std::cos(n * psi) : n == 0 ? 1.0 : std::sin(n * psi), rate = j % 2 == 1 ? -n * std::sin(n * psi) : n * std::cos(n * psi);
+      const double value = j % 2 == 1 ? std::cos(n * psi) : n == 0 ? 1.0 : std::sin(n * psi),
+          rate = j % 2 == 1 ? -n * std::sin(n * psi) : n * std::cos(n * psi);
       shape(i, j) = value;
       equation(i, j) = (1.0 - n * n) * value + 0.5 * kLock * (damping * rate + spring * value);
     }
@@ -111,7 +112,8 @@ TEST(FeRotorFlap, coefficientsAreThoseOfTheFlapEquation) {
 }
 
 /// With all stiffness in the hinge: nu^2 = 1 + K / (I Omega^2).
-Overrides withFlapSpring(const Overrides& overrides, double nu) { return overrides + Overrides{set("subsystems.rotor.flap_spring", (nu * nu - 1) * kInertia * kOmega * kOmega)}; }
+Overrides withFlapSpring(const Overrides& overrides, double nu) { return overrides + Overrides{set("subsystems.rotor.flap_spring",
+    (nu * nu - 1) * kInertia * kOmega * kOmega)}; }
 
 TEST(FeRotorFlap, cyclicPitchMovesTheDiscWithThePhaseLagOfTheClosedForm) {
   for (const double nu : {1.0, 1.03, 1.15}) {
@@ -155,7 +157,8 @@ TEST(FeRotorFlap, freeFlapDecaysWithTheEigenvalueOfTheClosedForm) {
 TEST(FeRotorFlap, pitchFlapCouplingStiffensTheFlap) {
   for (const double delta3 : {-20.0, 15.0, 30.0}) {
     const std::complex<double> s = flapEigenvalue(flapping(0.0, Controls{}) + Overrides{set("subsystems.swashplate.delta3_deg", delta3)},
-                                                  {"[rotor.flap, swashplate.flap]", "[rotor.flap_rate, swashplate.flap_rate]", "[rotor.flap_acceleration, swashplate.flap_acceleration]"});
+                                                  {"[rotor.flap, swashplate.flap]", "[rotor.flap_rate, swashplate.flap_rate]",
+                                                      "[rotor.flap_acceleration, swashplate.flap_acceleration]"});
     const double squared = 1 + kLock / 8 * std::tan(delta3 * kDegree);
     report("nu_eff^2, delta3 " + std::to_string(delta3), std::norm(s));
     EXPECT_NEAR(std::norm(s), squared, 1e-7);  // as above

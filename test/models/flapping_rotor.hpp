@@ -21,10 +21,14 @@ enum class Kinematics { kSmall, kFullAirloads, kFull };
 /// The Bo105 configuration with such blades, two of them, in a wind tunnel with the flow edgewise at mu and prescribed inflow.
 inline Overrides flapping(double mu, const Controls& c, Kinematics kinematics = Kinematics::kSmall) {
   Overrides list{"subsystems.drive.type=drive", "subsystems.mast.type=rigid_mast", "subsystems.fuselage.mode=rigid", "subsystems.fuselage.gravity=0",
-                 "subsystems.fuselage.shaft_tilt_forward_deg=0", "subsystems.airloads.polar=linear", "subsystems.airloads.compressible=false", "subsystems.airloads.drag=[0.0]",
-                 "subsystems.airloads.tip_loss_factor=1.0", "subsystems.inflow.type=prescribed_inflow", "subsystems.rotor.blades=2", "subsystems.rotor.precone_deg=0",
-                 "subsystems.rotor.zero_twist_radius=0.75", "subsystems.rotor.root_cutout=0", "subsystems.rotor.section_rule=gauss", "subsystems.rotor.sections=6",
-                 "subsystems.rotor.flap_hinge=true", "subsystems.rotor.modes=1", "subsystems.rotor.damping_mass=0", "subsystems.rotor.damping_stiffness=0",
+                 "subsystems.fuselage.shaft_tilt_forward_deg=0", "subsystems.airloads.polar=linear", "subsystems.airloads.compressible=false",
+                     "subsystems.airloads.drag=[0.0]",
+                 "subsystems.airloads.tip_loss_factor=1.0", "subsystems.inflow.type=prescribed_inflow", "subsystems.rotor.blades=2",
+                     "subsystems.rotor.precone_deg=0",
+                 "subsystems.rotor.zero_twist_radius=0.75", "subsystems.rotor.root_cutout=0", "subsystems.rotor.section_rule=gauss",
+                     "subsystems.rotor.sections=6",
+                 "subsystems.rotor.flap_hinge=true", "subsystems.rotor.modes=1", "subsystems.rotor.damping_mass=0",
+                     "subsystems.rotor.damping_stiffness=0",
                  "subsystems.rotor.km1=0", "simulation.newton_tolerance=1e-13"};
   const auto number = [&](const std::string& key, double value) { list.push_back(set(key, value)); };
   const auto table = [&](const std::string& key, double value) { list.push_back(set("subsystems.rotor." + key, value)); };

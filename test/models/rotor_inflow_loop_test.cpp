@@ -14,13 +14,16 @@ using namespace flapping_rotor;
 TEST(RotorInflowLoop, uniformInflowIsGlauertsAtEveryInstant) {
   for (const char* wind : {"[0, 0, 0]", "[-10.0, 3.0, 0]", "[-45.0, 5.0, -2.0]"}) {
     const double kappa = 1.1;
-    auto simulation = buildSimulation(shipped("bo105.yaml", {"subsystems.inflow.type=uniform_inflow", set("subsystems.inflow.induced_power_factor", kappa), "simulation.newton_tolerance=1e-13",
-                                                             std::string("subsystems.fuselage.wind=") + wind, "subsystems.swashplate.trim_longitudinal_cyclic=-0.03"}));
+    auto simulation = buildSimulation(shipped("bo105.yaml", {"subsystems.inflow.type=uniform_inflow", set("subsystems.inflow.induced_power_factor",
+        kappa), "simulation.newton_tolerance=1e-13",
+                                                             std::string("subsystems.fuselage.wind=") + wind,
+                                                                 "subsystems.swashplate.trim_longitudinal_cyclic=-0.03"}));
     PortRecorder ports(*simulation, {"airloads.rotor_loads", "airloads.hub_flow", "inflow.inflow"});
     ASSERT_TRUE(advance(*simulation, 360)) << simulation->failure().cause;
     double worst = 0.0, least = 1.0, most = 0.0;
     for (const std::vector<Vector>& row : ports.rows) {
-      const double thrust = row[0][0], l0 = row[2][0], mu = std::hypot(row[1][0], row[1][1]), through = row[1][2] + l0, floor = 1e-4;  // of the model, see inflow_ports.hpp
+      const double thrust = row[0][0], l0 = row[2][0], mu = std::hypot(row[1][0], row[1][1]), through = row[1][2] + l0,
+          floor = 1e-4;  // of the model, see inflow_ports.hpp
       worst = std::max(worst, std::abs(2 * l0 * std::sqrt(mu * mu + through * through + floor * floor) - kappa * thrust));
       least = std::min(least, thrust);
       most = std::max(most, thrust);
@@ -43,9 +46,12 @@ TEST(RotorInflowLoop, idealTwistHasTheInflowOfBladeElementMomentumTheory) {
   }
   Overrides overrides = flapping(0.0, Controls{});
   // The same blade with a table of twist.
-  overrides.erase(std::remove_if(overrides.begin(), overrides.end(), [](const std::string& o) { return o.find("subsystems.rotor.") == 0 || o.find("subsystems.inflow.") == 0; }), overrides.end());
-  overrides.push_back("subsystems.rotor={type: fe_rotor, blades: 2, kinematics: small_angle, nodes: [0.0, 2.0, 4.91], stations: " + stations + ", 4.91], twist_deg: " + twist +
-                      ", 0.0], mass: " + digits(kMass) + ", EI_flap: 1.0e+13, EI_lag: 1.0e+13, GJ: 1.0e+13, km1: 0.0, flap_hinge: true, modes: 1, sections: 3, section_rule: gauss}");
+  overrides.erase(std::remove_if(overrides.begin(), overrides.end(),
+      [](const std::string& o) { return o.find("subsystems.rotor.") == 0 || o.find("subsystems.inflow.") == 0; }), overrides.end());
+  overrides.push_back("subsystems.rotor={type: fe_rotor, blades: 2, kinematics: small_angle, nodes: [0.0, 2.0, 4.91], stations: " + stations +
+      ", 4.91], twist_deg: " + twist +
+                      ", 0.0], mass: " + digits(kMass) +
+                          ", EI_flap: 1.0e+13, EI_lag: 1.0e+13, GJ: 1.0e+13, km1: 0.0, flap_hinge: true, modes: 1, sections: 3, section_rule: gauss}");
   overrides.push_back("subsystems.inflow={type: uniform_inflow}");
   auto simulation = buildSimulation(shipped("bo105.yaml", overrides));
   // Coning decays with less than gamma/16 per rad, because the inflow gives way to it: 20 revolutions are enough for the last digit.

@@ -23,7 +23,8 @@ std::string triple(const Vector3d& v) {
   return text;
 }
 
-const Overrides kControls{"subsystems.swashplate.trim_collective=0.14", "subsystems.swashplate.trim_lateral_cyclic=0.02", "subsystems.swashplate.trim_longitudinal_cyclic=-0.04",
+const Overrides kControls{"subsystems.swashplate.trim_collective=0.14", "subsystems.swashplate.trim_lateral_cyclic=0.02",
+    "subsystems.swashplate.trim_longitudinal_cyclic=-0.04",
                           "simulation.newton_tolerance=1e-13"};
 const Overrides kWind{"subsystems.fuselage.wind=[-35.0, 8.0, 2.0]"};
 
@@ -73,8 +74,10 @@ TEST(RotorInvariance, numberingOfBlades) {
       for (const char* port : {"rotor.flap_", "rotor.lag_", "rotor.tip_twist_"})
         for (int k = 1; k <= blades; ++k) names.push_back(port + std::to_string(k));
       for (int i = 0; i < 2; ++i) {
-        runs[i] = buildSimulation(shipped("bo105.yaml", kControls + kWind + Overrides{"subsystems.rotor.mass_factor=" + lists[i] + "]", "subsystems.rotor.stiffness_factor=" + lists[i] + "]",
-                                                                                     set("subsystems.drive.initial.angle", i * first * 2 * M_PI / blades)}));
+        runs[i] = buildSimulation(shipped("bo105.yaml", kControls + kWind + Overrides{"subsystems.rotor.mass_factor=" + lists[i] + "]",
+            "subsystems.rotor.stiffness_factor=" + lists[i] + "]",
+                                                                                     set("subsystems.drive.initial.angle",
+                                                                                         i * first * 2 * M_PI / blades)}));
         Vector x = runs[i]->state();
         disturbBlades(runs[i]->system(), blades, i * first, x);
         runs[i]->setState(x);
@@ -97,14 +100,19 @@ TEST(RotorInvariance, headingOfFuselageAndWind) {
     const double heading = 70.0;
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(heading * kDegree, Vector3d::UnitZ()).toRotationMatrix();
     const Vector3d wind(-30.0, 7.0, 2.0);
-    const std::vector<std::string> names = axes("fuselage.hub_force") + axes("fuselage.hub_moment") + axes("fuselage.velocity") + axes("fuselage.rate") +
-                                           Overrides{"rotor.flap_1", "rotor.lag_2", "rotor.tip_twist_3", "mast.twist", "inflow.inflow_mean"} + axes("fuselage.position");
+    const std::vector<std::string> names = axes("fuselage.hub_force") + axes("fuselage.hub_moment") + axes("fuselage.velocity") +
+        axes("fuselage.rate") +
+                                           Overrides{"rotor.flap_1", "rotor.lag_2", "rotor.tip_twist_3", "mast.twist", "inflow.inflow_mean"} +
+                                               axes("fuselage.position");
     std::unique_ptr<Simulation> runs[2];
     std::unique_ptr<Recorder> records[2];
     for (int i = 0; i < 2; ++i) {
       const Vector3d turned = i == 0 ? wind : Vector3d(turn * wind);
-      runs[i] = buildSimulation(shipped("bo105.yaml", kControls + Overrides{std::string("subsystems.fuselage.mode=") + mode, "subsystems.fuselage.wind=" + triple(turned),
-                                                                           set("subsystems.fuselage.heading_deg", i * heading), "subsystems.fuselage.pitch_deg=4", "subsystems.fuselage.roll_deg=-3"}));
+      runs[i] = buildSimulation(shipped("bo105.yaml", kControls + Overrides{std::string("subsystems.fuselage.mode=") + mode,
+          "subsystems.fuselage.wind=" + triple(turned),
+                                                                           set("subsystems.fuselage.heading_deg", i * heading),
+                                                                               "subsystems.fuselage.pitch_deg=4",
+                                                                               "subsystems.fuselage.roll_deg=-3"}));
       records[i] = std::make_unique<Recorder>(*runs[i], names);
       ASSERT_TRUE(advance(*runs[i], 360)) << runs[i]->failure().cause;
     }
@@ -126,17 +134,23 @@ TEST(RotorInvariance, mirroredSenseOfRotation) {
   for (const char* mode : {"spring6", "free"}) {
     const Vector3d wind(-30.0, 7.0, 2.0), hub(0.1, 0.2, 1.5), products(40.0, 200.0, -60.0);  // Ixy, Ixz, Iyz
     const Vector3d force(500.0, 800.0, -300.0), moment(400.0, -700.0, 900.0);
-    const std::vector<std::string> names = axes("fuselage.hub_force") + axes("fuselage.velocity") + axes("fuselage.position") + axes("fuselage.hub_moment") + axes("fuselage.rate") +
-                                           Overrides{"rotor.flap_1", "rotor.lag_2", "rotor.tip_twist_3", "mast.twist", "mast.torque", "inflow.inflow_sine"};
+    const std::vector<std::string> names = axes("fuselage.hub_force") + axes("fuselage.velocity") + axes("fuselage.position") +
+        axes("fuselage.hub_moment") + axes("fuselage.rate") +
+                                           Overrides{"rotor.flap_1", "rotor.lag_2", "rotor.tip_twist_3", "mast.twist", "mast.torque",
+                                               "inflow.inflow_sine"};
     std::unique_ptr<Simulation> runs[2];
     std::unique_ptr<Recorder> records[2];
     for (int i = 0; i < 2; ++i) {
       const Vector3d of_polar = i == 0 ? Vector3d(1, 1, 1) : polar, of_axial = i == 0 ? Vector3d(1, 1, 1) : axial;
       runs[i] = buildSimulation(shipped(
-          "bo105.yaml", kControls + Overrides{std::string("subsystems.fuselage.mode=") + mode, std::string("subsystems.fuselage.rotation=") + (i == 0 ? "ccw" : "cw"),
-                                              "subsystems.fuselage.wind=" + triple(of_polar.cwiseProduct(wind)), "subsystems.fuselage.hub_offset=" + triple(of_polar.cwiseProduct(hub)),
-                                              "subsystems.fuselage.products_of_inertia=" + triple(Vector3d(of_polar[1], 1, of_polar[1]).cwiseProduct(products)),
-                                              "subsystems.fuselage.pitch_deg=4", set("subsystems.fuselage.roll_deg", -3 * of_axial[0]), set("subsystems.fuselage.heading_deg", 20 * of_axial[2])}));
+          "bo105.yaml", kControls + Overrides{std::string("subsystems.fuselage.mode=") + mode, std::string("subsystems.fuselage.rotation=") +
+              (i == 0 ? "ccw" : "cw"),
+                                              "subsystems.fuselage.wind=" + triple(of_polar.cwiseProduct(wind)), "subsystems.fuselage.hub_offset=" +
+                                                  triple(of_polar.cwiseProduct(hub)),
+                                              "subsystems.fuselage.products_of_inertia=" + triple(Vector3d(of_polar[1], 1,
+                                                  of_polar[1]).cwiseProduct(products)),
+                                              "subsystems.fuselage.pitch_deg=4", set("subsystems.fuselage.roll_deg", -3 * of_axial[0]),
+                                                  set("subsystems.fuselage.heading_deg", 20 * of_axial[2])}));
       Vector w = runs[i]->system().defaultCommand();
       const auto& commands = runs[i]->system().commandNames();
       const auto begin = [&](const std::string& name) { return std::find(commands.begin(), commands.end(), name) - commands.begin(); };
@@ -156,8 +170,10 @@ TEST(RotorInvariance, mirroredSenseOfRotation) {
 /// In hover the azimuth has no beginning: cyclic pitch a cos(psi) + b sin(psi) turned by an angle turns all loads by it.
 Overrides turnedCyclic(int blades, double angle) {
   const double a = 0.03, b = -0.05, c = std::cos(angle), s = std::sin(angle);
-  return {"subsystems.fuselage.mode=rigid", "subsystems.fuselage.shaft_tilt_forward_deg=0", "subsystems.rotor.blades=" + std::to_string(blades), "simulation.newton_tolerance=1e-13",
-          "subsystems.swashplate.trim_collective=0.14", set("subsystems.swashplate.trim_lateral_cyclic", a * c - b * s), set("subsystems.swashplate.trim_longitudinal_cyclic", a * s + b * c)};
+  return {"subsystems.fuselage.mode=rigid", "subsystems.fuselage.shaft_tilt_forward_deg=0", "subsystems.rotor.blades=" + std::to_string(blades),
+      "simulation.newton_tolerance=1e-13",
+          "subsystems.swashplate.trim_collective=0.14", set("subsystems.swashplate.trim_lateral_cyclic", a * c - b * s),
+              set("subsystems.swashplate.trim_longitudinal_cyclic", a * s + b * c)};
 }
 
 TEST(RotorInvariance, cyclicPitchTurnedByABladeSpacingTurnsTheLoadsAtEveryInstant) {
@@ -188,7 +204,8 @@ TEST(RotorInvariance, cyclicPitchTurnedByABladeSpacingTurnsTheLoadsAtEveryInstan
 TEST(RotorInvariance, cyclicPitchTurnedByAQuarterTurnsTheMeanLoadsOfThreeBlades) {
   Vector means[2];
   for (int i = 0; i < 2; ++i) {
-    const Configuration configuration = shipped("bo105.yaml", turnedCyclic(3, i * M_PI / 2) + Overrides{"subsystems.rotor.modes=4", "subsystems.airloads.polar=linear"});
+    const Configuration configuration = shipped("bo105.yaml", turnedCyclic(3, i * M_PI / 2) + Overrides{"subsystems.rotor.modes=4",
+        "subsystems.airloads.polar=linear"});
     const auto build = [&] { return buildSimulation(configuration); };
     auto simulation = build();
     TrimSettings settings;

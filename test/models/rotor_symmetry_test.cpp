@@ -23,12 +23,15 @@ TEST(RotorSymmetry, bladesMoveAlikeInAxialFlowThroughTransients) {
   for (const int blades : {3, 4, 5}) {
     for (const char* wind : {"0.0", "-6.0"}) {
       // Gravity acts along the shaft. Tables, dynamic inflow, elastic mast, all modes: as shipped.
-      auto simulation = buildSimulation(shipped("bo105.yaml", tunnel(blades) + Overrides{std::string("subsystems.fuselage.wind=[0, 0, ") + wind + "]", "simulation.newton_tolerance=1e-13"}));
+      auto simulation = buildSimulation(shipped("bo105.yaml", tunnel(blades) + Overrides{std::string("subsystems.fuselage.wind=[0, 0, ") + wind +
+          "]", "simulation.newton_tolerance=1e-13"}));
       const CoupledSystem& system = simulation->system();
       const CoupledSystem::Subsystem& rotor = subsystem(system, "rotor");
       Vector w = system.defaultCommand();
-      const Index collective = static_cast<Index>(std::find(system.commandNames().begin(), system.commandNames().end(), "swashplate.collective") - system.commandNames().begin());
-      Recorder loads(*simulation, {"fuselage.hub_force_x", "fuselage.hub_force_y", "fuselage.hub_force_z", "fuselage.hub_moment_x", "fuselage.hub_moment_y"});
+      const Index collective = static_cast<Index>(std::find(system.commandNames().begin(), system.commandNames().end(),
+          "swashplate.collective") - system.commandNames().begin());
+      Recorder loads(*simulation, {"fuselage.hub_force_x", "fuselage.hub_force_y", "fuselage.hub_force_z", "fuselage.hub_moment_x",
+          "fuselage.hub_moment_y"});
       double states = 0.0, size = 0.0;
       for (int n = 0; n < 480; ++n) {
         if (n == 120) w[collective] = 0.2;
@@ -60,7 +63,8 @@ TEST(RotorSymmetry, bladesMoveAlikeInAxialFlowThroughTransients) {
 /// Four elements and the lowest modes: the claims of periodic flight do not depend on how many there are. Smooth airloads, so that the mean over
 /// steps is the mean over time.
 Overrides coarse() {
-  return {"subsystems.rotor.nodes=[0.20, 0.37, 0.60, 2.0, 4.91]", "subsystems.rotor.modes=6", "subsystems.airloads.polar=linear", "simulation.newton_tolerance=1e-13"};
+  return {"subsystems.rotor.nodes=[0.20, 0.37, 0.60, 2.0, 4.91]", "subsystems.rotor.modes=6", "subsystems.airloads.polar=linear",
+      "simulation.newton_tolerance=1e-13"};
 }
 
 /// A periodic motion, found by shooting; `targets`: with the shipped targets and controls, otherwise under the given controls.
@@ -82,14 +86,16 @@ struct Periodic {
   TrimResult result;
 };
 
-const Overrides kForward{"subsystems.fuselage.wind=[-43.6, 0, 0]", "subsystems.swashplate.trim_collective=0.16", "subsystems.swashplate.trim_lateral_cyclic=0.02",
+const Overrides kForward{"subsystems.fuselage.wind=[-43.6, 0, 0]", "subsystems.swashplate.trim_collective=0.16",
+    "subsystems.swashplate.trim_lateral_cyclic=0.02",
                          "subsystems.swashplate.trim_longitudinal_cyclic=-0.05"};
 
 TEST(RotorSymmetry, forwardFlightShakesTheMountAtMultiplesOfTheBladeNumberOnly) {
   for (const int blades : {3, 4}) {
     Periodic flight(tunnel(blades) + coarse() + kForward, false, 1e-10);
     ASSERT_TRUE(flight.result.trimmed()) << flight.result.message;
-    Recorder loads(*flight.simulation, {"fuselage.hub_force_x", "fuselage.hub_force_y", "fuselage.hub_force_z", "fuselage.hub_moment_x", "fuselage.hub_moment_y", "fuselage.hub_moment_z"});
+    Recorder loads(*flight.simulation, {"fuselage.hub_force_x", "fuselage.hub_force_y", "fuselage.hub_force_z", "fuselage.hub_moment_x",
+        "fuselage.hub_moment_y", "fuselage.hub_moment_z"});
     ASSERT_TRUE(advance(*flight.simulation, 360, flight.result.w));
     double passing = 0.0, others = 0.0, thrust = 0.0;
     for (int n = 0; n < 180; ++n) {
@@ -112,9 +118,11 @@ TEST(RotorSymmetry, forwardFlightShakesTheMountAtMultiplesOfTheBladeNumberOnly) 
 
 TEST(RotorSymmetry, meanHubLoadIsTheMeanAirload) {
   const double step = 0.75;
-  Periodic flight(tunnel(4) + coarse() + kForward + Overrides{"subsystems.fuselage.gravity=0", set("simulation.azimuth_step_deg", step)}, true, 1e-10);
+  Periodic flight(tunnel(4) + coarse() + kForward + Overrides{"subsystems.fuselage.gravity=0", set("simulation.azimuth_step_deg", step)}, true,
+      1e-10);
   ASSERT_TRUE(flight.result.trimmed()) << flight.result.message;
-  PortRecorder ports(*flight.simulation, {"rotor.rotor_force", "rotor.tilting_moment", "rotor.blade_reaction", "mast.hub_motion", "airloads.section_loads", "rotor.section_position"});
+  PortRecorder ports(*flight.simulation, {"rotor.rotor_force", "rotor.tilting_moment", "rotor.blade_reaction", "mast.hub_motion",
+      "airloads.section_loads", "rotor.section_position"});
   ASSERT_TRUE(advance(*flight.simulation, std::lround(360 / step), flight.result.w));
   Vector hub = Vector::Zero(6), air = Vector::Zero(6), at_once(6), of_air(6);
   double apart = 0.0;
