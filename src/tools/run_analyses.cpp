@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
+#include <memory>
 
 #include "heerk_rotor/analysis/analysis_report.hpp"
 #include "heerk_rotor/analysis/coupling_picture.hpp"
@@ -73,6 +75,15 @@ void countEvaluations(const RunSetup& setup, Analyses& analyses) {
   append(analyses, "evaluations", json(counts));
 }
 
+/// Multipliers of the revolution from the start: with periodic coefficients the step map alone hides instabilities such as ground resonance.
+/// Left out where the step does not divide the revolution.
+void addRevolution(Analyses& analyses, const std::function<std::unique_ptr<Simulation>()>& build, const RunSetup& setup, const Vector& scales) {
+  const double revolution = setup.settings.revolution(), steps = revolution / setup.settings.step;
+  if (std::abs(steps - std::round(steps)) > 1e-9 * steps) return;
+  const Stability stability = revolutionStability(build, revolution, setup.simulation->state(), setup.command, scales);
+  addStability(analyses, "floquet", stability, "one revolution from the start (Floquet multipliers if this is periodic)", setup);
+}
+
 /// Typical magnitudes of the states: over a revolution where the step divides it, otherwise at this instant.
 Vector scalesAt(const Configuration& configuration, const RunSetup& setup, const Vector& x) {
   Vector states = x.cwiseAbs(), outputs;
@@ -127,6 +138,7 @@ Analyses runAnalyses(const SimulateOptions& options, RunSetup& setup) {
     startFrom(setup, result, options);
   }
   if (scales.size() == 0) scales = scalesAt(configuration, setup, start);
+  if (options.stability && !options.trim) addRevolution(analyses, build, setup, scales);
   addStability(analyses, "stability", stepStability(build, setup.simulation->state(), setup.command, scales), "one step", setup);
   return analyses;
 }

@@ -42,7 +42,7 @@ void declare(CLI::App& app, SimulateOptions& options, Words& words) {
   app.add_option("--load-snapshot", options.load_snapshot, "continue from a snapshot; CONFIG may be left out")->type_name("FILE");
   app.add_flag("--trim", options.trim, "find the periodic motion and controls that the section trim asks for; a run goes on from there");
   app.add_option("--save-start", options.save_start, "write the final state as a start, with --trim the trimmed one; loaded by the key simulation.start")->type_name("FILE.yaml");
-  app.add_flag("--stability", options.stability, "eigenvalues of the map of one step at the start");
+  app.add_flag("--stability", options.stability, "eigenvalues of the maps of one revolution and of one step at the start");
   app.add_option("--show-coupling", words.coupling, "print subsystems, connections, loops and their sparsity; draw them into a picture")
       ->type_name("[FILE.svg]")->expected(0, 1);
   app.add_flag("--evaluation-counts", options.evaluation_counts, "evaluations of f and g per step and subsystem, over one revolution");

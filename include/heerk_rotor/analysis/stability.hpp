@@ -22,6 +22,12 @@ struct Stability {
 /// motion; that is the revolution's (Floquet) multipliers. Throws std::runtime_error when a perturbed step fails.
 Stability stepStability(const std::function<std::unique_ptr<Simulation>()>& build, const Vector& x, const Vector& w, const Vector& scales, unsigned threads = 0);
 
+/// The map of one revolution [s] from (x, w), linearised likewise: Floquet multipliers where the motion is periodic, rest included;
+/// from a start with a transient they tell what becomes of neighbouring motions over this revolution. Throws
+/// std::invalid_argument when the step does not divide the revolution.
+Stability revolutionStability(const std::function<std::unique_ptr<Simulation>()>& build, double revolution, const Vector& x, const Vector& w, const Vector& scales,
+                              unsigned threads = 0);
+
 /// Floquet multipliers from a monodromy matrix in any scales.
 Stability floquetStability(const Matrix& monodromy, double period, const std::vector<std::string>& state_names);
 
