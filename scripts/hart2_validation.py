@@ -39,7 +39,8 @@ def draw(controls, path):
     place = np.arange(len(CONTROLS))
     for i, (inflow, values) in enumerate(controls.items()):
         axes.bar(place + 0.22 * (i - 1), values, 0.2, label=inflow.replace("_", "-"))
-    axes.errorbar(place, MEASURED, BARS, fmt="k_", markersize=60, capsize=6, label="measured, with bars")
+    axes.errorbar(place, MEASURED, BARS, fmt="none", ecolor="k", capsize=8, label="bars around the measured value")
+    axes.hlines(MEASURED, place - 0.4, place + 0.4, "k", linewidth=1.2, linestyle="--", label="measured")
     axes.axhline(0, color="k", linewidth=0.8)
     axes.set(ylabel="[deg]", title="HART II, controls for 3300 N without hub moments")
     axes.set_xticks(place)
