@@ -50,7 +50,20 @@ TEST(AnalysesProgram, couplingAndCountsAreJson) {
   EXPECT_NE(readText(picture).find("</svg>"), std::string::npos);
 }
 
-TEST(AnalysesProgram, saveStartNeedsATrim) { EXPECT_EQ(simulate({kControlled, "--save-start", "x.yaml"}).status, 2); }
+TEST(AnalysesProgram, withoutTrimTheFinalStateIsTheStartThatIsSaved) {
+  TestFolder folder;
+  const std::string first = folder.file("first.yaml"), second = folder.file("second.yaml");
+  const Finished run = simulate({kControlled, "--quiet", "--revolutions", "1", "--save-start", first});
+  ASSERT_EQ(run.status, 0) << run.err;
+  // Another step begins exactly there.
+  const Finished other = simulate({kControlled, "--quiet", "--revolutions", "0", "--save-start", second, "--set", "simulation.azimuth_step_deg=0.5", "--set",
+                                   "simulation.start=" + first, "--set", "subsystems.mast.initial={}", "--set", "subsystems.rotor.initial={}"});
+  ASSERT_EQ(other.status, 0) << other.err;
+  const YAML::Node a = YAML::LoadFile(first), b = YAML::LoadFile(second);
+  EXPECT_EQ(YAML::Dump(a["states"]), YAML::Dump(b["states"]));
+  EXPECT_EQ(YAML::Dump(a["commands"]), YAML::Dump(b["commands"]));
+  EXPECT_NE(a["states"]["rotor"]["absolute_lag_1"].as<double>(), 0.0);
+}
 
 }  // namespace
 }  // namespace heerk_rotor

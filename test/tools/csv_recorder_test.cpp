@@ -43,6 +43,16 @@ TEST(CsvRecorder, headerHasFixedColumnsThenSignalsWithUnits) {
   EXPECT_EQ(readText(recorder.file()), "step [-],time [s],azimuth [rad],tank.b_1 [m/s],tank.hidden [-]\n");
 }
 
+TEST(CsvRecorder, unitsWithACommaAreQuoted) {
+  const TestFolder folder;
+  const CoupledSystem system = smallSystem();
+  std::vector<Signal> signals = selectSignals(system, {"tank.b", "tank.hidden"});
+  signals[0].unit = "N, N m";  // of a port of forces and moments
+  CsvRecorder recorder(folder.file("x.csv"), system, signals, 2.0, {});
+  recorder.close();
+  EXPECT_EQ(readText(recorder.file()), "step [-],time [s],azimuth [rad],\"tank.b_1 [N, N m]\",tank.hidden [-]\n");
+}
+
 TEST(CsvRecorder, everyNumberReadsBackBitByBit) {
   const TestFolder folder;
   const auto simulation = smallSimulation();

@@ -61,8 +61,10 @@ struct Table {
 inline Table parseTable(const std::string& text) {
   const auto cells = [](const std::string& line) {
     std::vector<std::string> result(1);
+    bool quoted = false;
     for (const char c : line)
-      if (c == ',') result.emplace_back();
+      if (c == '"') quoted = !quoted;
+      else if (c == ',' && !quoted) result.emplace_back();
       else result.back() += c;
     return result;
   };
