@@ -48,9 +48,9 @@ struct Watcher : Observer {
   double sum = 0.0;
 };
 
-void expectNoHeapCalls(const Overrides& overrides, long steps) {
+void expectNoHeapCalls(const std::string& configuration, const Overrides& overrides, long steps) {
   if (!heapIsCounted()) GTEST_SKIP() << "the heap belongs to a sanitizer";
-  auto simulation = buildSimulation(shipped("lag_rotor_controlled.yaml", overrides));
+  auto simulation = buildSimulation(shipped(configuration, overrides));
   Watcher watcher;
   simulation->addObserver(watcher);
   Vector w = simulation->system().defaultCommand();
@@ -58,6 +58,8 @@ void expectNoHeapCalls(const Overrides& overrides, long steps) {
   const auto command = [&](const std::string& name) { return std::find(names.begin(), names.end(), name) - names.begin(); };
   const Index collective = command("swashplate.collective"), lateral = command("swashplate.lateral_cyclic");
   const Index longitudinal = command("swashplate.longitudinal_cyclic"), speed = command("drive.speed");
+  const Index wind = command("fuselage.wind_x"), push = command("fuselage.external_force_y");  // where there is such a fuselage
+  const double nominal = w[speed];
   ASSERT_LT(std::max({collective, lateral, longitudinal, speed}), w.size());
   ASSERT_TRUE(advance(*simulation, 100, w));  // warm-up
 
@@ -72,7 +74,9 @@ void expectNoHeapCalls(const Overrides& overrides, long steps) {
         w[collective] = 0.15 + 0.05 * std::sin(phase);
         w[lateral] = 0.04 * std::cos(3.0 * phase);
         w[longitudinal] = k % 70000 == 0 ? 0.5 : 0.03 * std::sin(2.0 * phase);
-        w[speed] = k < steps / 4 ? 41.0 : k < steps / 2 ? 37.0 : k < 3 * steps / 4 ? 44.0 : 41.0;
+        w[speed] = nominal * (k < steps / 4 ? 1.0 : k < steps / 2 ? 0.9 : k < 3 * steps / 4 ? 1.07 : 1.0);
+        if (wind < w.size()) w[wind] = -10.0 * (1.0 - std::cos(phase));
+        if (push < w.size()) w[push] = 2000.0 * std::sin(phase);
       }
       status = simulation->step(w);
     }
@@ -84,12 +88,18 @@ void expectNoHeapCalls(const Overrides& overrides, long steps) {
   EXPECT_TRUE(std::isfinite(watcher.sum));
 }
 
-TEST(Allocation, aMillionStepsOfTheControlledRotorNeverTouchTheHeap) { expectNoHeapCalls({}, 1000000); }
+TEST(Allocation, aMillionStepsOfTheControlledRotorNeverTouchTheHeap) { expectNoHeapCalls("lag_rotor_controlled.yaml", {}, 1000000); }
+
+/// HEERK_ALLOCATION_STEPS=1000000 makes it as long as the test above (about 80 s).
+TEST(Allocation, stepsOfTheElasticRotorNeverTouchTheHeap) {
+  const char* const steps = std::getenv("HEERK_ALLOCATION_STEPS");
+  expectNoHeapCalls("bo105.yaml", {}, steps != nullptr ? std::atol(steps) : 100000);
+}
 
 TEST(Allocation, noMethodAndNoFormulationTouchesTheHeap) {
   for (const char* formulation : {"absolute_lag", "printed"})
     for (const char* method : {"HERK4", "HEERK2", "HEERK3", "HEERK4", "ETDRK4"})
-      expectNoHeapCalls({std::string("simulation.formulation=") + formulation, std::string("simulation.integrator=") + method, "simulation.step=1.0e-4"}, 5000);
+      expectNoHeapCalls("lag_rotor_controlled.yaml", {std::string("simulation.formulation=") + formulation, std::string("simulation.integrator=") + method, "simulation.step=1.0e-4"}, 5000);
 }
 
 }  // namespace
