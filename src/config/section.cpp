@@ -149,7 +149,7 @@ std::vector<std::string> Section::words(const std::string& key) {
     if (good) result.push_back(value[i].Scalar());
   }
   if (good) return result;
-  problem(key, "a list of words");
+  problem(key, "a word, or a list of words");
   return {};
 }
 
