@@ -1,0 +1,1 @@
+"""The parts of scripts/paper_fe_rotor.py."""
