@@ -23,7 +23,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 CONFIGURATION = str(ROOT / "config/ground_resonance.yaml")
 BAR = 0.05          # of the growth rate
 FROM, TO = 8, 20    # [s] where the slope is taken: before, other modes are still there
-KICK = 0.01         # of the first lag mode of blade 1, 1 to 2 mm at the tip
+KICK = 0.01         # of the first lag mode of blade 1, 4 mm at the tip
 BLADES = 4
 
 

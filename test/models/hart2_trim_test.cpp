@@ -12,7 +12,8 @@ constexpr double kDegree = M_PI / 180.0;
 /// Collective, lateral and longitudinal cyclic [deg] for the configuration's thrust and hub moments. Six modes per blade: all 50 change the
 /// controls by less than 0.02 deg.
 Vector trimmedControls(const std::string& inflow) {
-  const Configuration configuration = shipped("hart2.yaml", {"subsystems.rotor.modes=6", "subsystems.inflow.type=" + inflow, "simulation.newton_tolerance=1e-12"});
+  const Configuration configuration = shipped("hart2.yaml", {"subsystems.rotor.modes=6", "subsystems.inflow.type=" + inflow,
+                                                            "simulation.newton_tolerance=1e-12"});
   const auto build = [&] { return buildSimulation(configuration); };
   Problems problems;
   const TrimSettings settings = readTrimSettings(configuration, build()->system(), problems);
