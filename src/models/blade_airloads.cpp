@@ -26,8 +26,14 @@ BladeAirloads::BladeAirloads(const Parameters& parameters) : p_(parameters), pol
   // Compressibility is in the speed, see applyLag().
   if (p_.unsteady == Unsteady::kBeddoes) lag_ = IndicialLag::beddoes(0.0);
 
-  for (Index j = 0; j < sections.count(); ++j)
-    geometry_.push_back({p_.chord[j], p_.elastic_axis, tipLossFactor(sections.r[j] / sections.radius, p_.tip_loss_factor)});
+  // The segments that the sections stand for end at the tip.
+  double inner = sections.radius;
+  for (const double width : sections.width) inner -= width;
+  for (Index j = 0; j < sections.count(); ++j) {
+    const double outer = inner + sections.width[j];
+    geometry_.push_back({p_.chord[j], p_.elastic_axis, meanTipLossFactor(inner / sections.radius, outer / sections.radius, p_.tip_loss_factor)});
+    inner = outer;
+  }
   for (int k = 0; k < 8; ++k) {
     const double behind = k < sections.blades ? 2.0 * M_PI * k / sections.blades : 0.0;
     turn_cosine_.push_back(std::cos(behind));

@@ -325,6 +325,13 @@ TEST(TipLoss, effectiveRadiusIsB) {
   }
   EXPECT_NEAR(sum, 0.97, 1e-9);
   EXPECT_NEAR(root, 0.8, 1e-9);
+  for (const double inner : {0.9, 0.962, 0.967, 0.972}) {  // its mean over a segment, against the midpoint rule
+    const double outer = inner + 0.02;
+    double mean = 0.0;
+    for (int i = 0; i < n; ++i) mean += tipLossFactor(inner + 0.02 * (i + 0.5) / n, 0.97) / n;
+    EXPECT_NEAR(meanTipLossFactor(inner, outer, 0.97), mean, 1e-7) << inner;
+  }
+  EXPECT_EQ(meanTipLossFactor(0.9, 1.0, 1.0), 1.0);
   EXPECT_EQ(tipLossFactor(0.9649, 0.97), 1.0);
   EXPECT_EQ(tipLossFactor(0.9751, 0.97), 0.0);
   EXPECT_EQ(tipLossFactor(1.0, 1.0), 1.0);

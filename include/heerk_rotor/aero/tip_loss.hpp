@@ -13,6 +13,18 @@ inline double smoothStep(double x, double begin, double end) noexcept {
 /// around B, so that loads change smoothly with B and with the position of a section. r: r/R. B >= 1 is no tip loss.
 inline double tipLossFactor(double r, double B) noexcept { return B >= 1.0 ? 1.0 : 1.0 - smoothStep(r, B - 0.005, B + 0.005); }
 
+/// Mean of tipLossFactor over a segment, so that a few wide sections lose as much lift as many narrow ones. inner < outer: r/R.
+inline double meanTipLossFactor(double inner, double outer, double B) noexcept {
+  if (B >= 1.0) return 1.0;
+  const auto integral = [B](double x) {  // of the smooth step from far inside to x
+    const double s = (x - (B - 0.005)) / 0.01;
+    if (s <= 0.0) return 0.0;
+    if (s >= 1.0) return 0.005 + (x - (B + 0.005));
+    return 0.01 * s * s * s * s * (2.5 + s * (s - 3.0));
+  };
+  return 1.0 - (integral(outer) - integral(inner)) / (outer - inner);
+}
+
 /// Factor on all loads: none inside the root cut-out, likewise spread over 1 % of R. r, cutout: parts of R; 0 is no cut-out.
 inline double rootCutoutFactor(double r, double cutout) noexcept { return cutout <= 0.0 ? 1.0 : smoothStep(r, cutout - 0.005, cutout + 0.005); }
 

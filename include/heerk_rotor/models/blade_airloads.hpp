@@ -47,7 +47,7 @@ class BladeAirloads : public SubsystemModel {
     BladePolars polars;
     std::vector<double> chord;        // (sections) [m]
     double elastic_axis = 0.25;       // behind the leading edge [parts of chord]
-    double tip_loss_factor = 1.0;     // B: no lift outside B R, spread over 1 % of R; 1 is none
+    double tip_loss_factor = 1.0;     // B: no lift outside B R, spread over 1 % of R and averaged over each section's segment; 1 is none
     Air air;
     bool compressible = true;         // false: polars at Mach 0
     double rotor_speed = 44.4;        // Omega, nominal [rad/s]
