@@ -39,7 +39,8 @@ class Hover:
     """Steady hover coefficients of a configuration at a collective pitch [rad], by `simulate`."""
 
     def __init__(self, program, configuration, overrides):
-        self.command = [str(program), str(ROOT / "config" / configuration), "--quiet", "--revolutions", str(REVOLUTIONS), "--every", "180"]
+        self.command = [str(program), str(ROOT / "config" / configuration), "--quiet", "--revolutions", str(REVOLUTIONS), "--every", "180",
+                        "--set", "simulation.start=none"]  # whose commands would win
         self.command += [word for override in overrides for word in ("--set", override)]
 
     def __call__(self, collective, *overrides):

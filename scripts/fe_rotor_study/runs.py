@@ -38,6 +38,8 @@ class Study:
 
     def execute(self, arguments, settings):
         command = [self.simulate, str(ROOT / CONFIG), "--json", "--quiet"] + [str(a) for a in arguments]
+        if not any(setting.startswith("simulation.start=") for setting in settings):
+            settings = ["simulation.start=none"] + list(settings)
         command += [word for setting in settings for word in ("--set", setting)]
         result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, check=False)
         self.count += 1

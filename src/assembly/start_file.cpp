@@ -8,7 +8,6 @@
 
 #include "heerk_rotor/config/section.hpp"
 #include "heerk_rotor/config/yaml_value.hpp"
-#include "heerk_rotor/core/nearest_name.hpp"
 
 namespace heerk_rotor {
 namespace {
@@ -40,10 +39,9 @@ void forEachValue(const Configuration& configuration, const std::string& part, P
   }
 }
 
-void reportUnknown(const Configuration& configuration, const std::string& part, const std::string& name, const std::string& what,
-                   const std::vector<std::string>& known, Problems& problems) {
+void reportValue(const Configuration& configuration, const std::string& part, const std::string& name, const std::string& expected, Problems& problems) {
   const std::string path = kStart + "." + part + "." + name;
-  problems.add({configuration.where(path), path, asWritten(findValue(configuration.root(), path)), what + didYouMean(name, known)});
+  problems.add({configuration.where(path), path, asWritten(findValue(configuration.root(), path)), expected});
 }
 
 /// "4 states: a, b, c, ..."
@@ -62,7 +60,7 @@ void checkParts(const Configuration& configuration, Problems& problems) {
 
 void readStates(const Configuration& configuration, const CoupledSystem& system, StartValues& start, Problems& problems) {
   std::map<std::string, Index> entries;
-  std::vector<std::string> initial_wins, missing;
+  std::vector<std::string> initial_wins, missing, foreign;
   const std::vector<std::string> names = system.stateNames();
   for (std::size_t i = 0; i < names.size(); ++i) entries[names[i]] = static_cast<Index>(i);
 
@@ -75,7 +73,10 @@ void readStates(const Configuration& configuration, const CoupledSystem& system,
   }
   forEachValue(configuration, "states", problems, [&](const std::string& subsystem, const std::string& name, double value) {
     const auto entry = entries.find(subsystem + "." + name);
-    if (entry == entries.end()) return reportUnknown(configuration, "states", subsystem + "." + name, "the name of a state of this system", names, problems);
+    if (entry == entries.end()) {
+      foreign.push_back(subsystem + "." + name);
+      return;
+    }
     const auto i = static_cast<std::size_t>(entry->second);
     found[i] = 1;
     if (given[i]) initial_wins.push_back(names[i]);
@@ -83,23 +84,26 @@ void readStates(const Configuration& configuration, const CoupledSystem& system,
   });
   for (std::size_t i = 0; i < names.size(); ++i)
     if (!found[i]) missing.push_back(names[i]);
+  if (!foreign.empty()) start.notes.push_back("the start file belongs to another variant of this configuration: it names " + counted(foreign, "state") + ", which this one does not have");
   if (!missing.empty()) start.notes.push_back("the start file leaves out " + counted(missing, "state") + "; initial values stay");
   if (!initial_wins.empty()) start.notes.push_back("values under initial: take precedence over the start file for " + counted(initial_wins, "state"));
 }
 
 void readCommands(const Configuration& configuration, const CoupledSystem& system, StartValues& start, Problems& problems) {
   const std::vector<std::string>& names = system.commandNames();
+  std::vector<std::string> foreign;
   forEachValue(configuration, "commands", problems, [&](const std::string& subsystem, const std::string& name, double value) {
     const std::string command = subsystem + "." + name;
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (names[i] != command) continue;
       const auto entry = static_cast<Index>(i);
       if (value >= system.commandLow()[entry] && value <= system.commandHigh()[entry]) start.command[entry] = value;
-      else reportUnknown(configuration, "commands", command, "a value in [" + std::to_string(system.commandLow()[entry]) + ", " + std::to_string(system.commandHigh()[entry]) + "]", {}, problems);
+      else reportValue(configuration, "commands", command, "a value in [" + std::to_string(system.commandLow()[entry]) + ", " + std::to_string(system.commandHigh()[entry]) + "]", problems);
       return;
     }
-    reportUnknown(configuration, "commands", command, "the name of a command of this system", names, problems);
+    foreign.push_back(command);
   });
+  if (!foreign.empty()) start.notes.push_back("the start file names " + counted(foreign, "command") + ", which this configuration does not take");
 }
 
 std::string exact(double value) {

@@ -140,10 +140,10 @@ std::string Section::word(const std::string& key, const std::string& fallback, c
 
 std::vector<std::string> Section::words(const std::string& key) {
   const YAML::Node value = lookup(key);
-  if (!value.IsDefined() || value.IsNull()) return {};
-  if (value.IsScalar()) return {word(key, "")};
+  if (!value.IsDefined()) return {};
   std::vector<std::string> result;
-  bool good = value.IsSequence();
+  bool good = (value.IsSequence() && value.size() > 0) || (value.IsScalar() && !value.Scalar().empty());
+  if (good && value.IsScalar()) return {value.Scalar()};
   for (std::size_t i = 0; good && i < value.size(); ++i) {
     good = value[i].IsScalar() && !value[i].Scalar().empty();
     if (good) result.push_back(value[i].Scalar());

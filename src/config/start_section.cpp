@@ -28,7 +28,11 @@ void replaceStart(Document& document, const Document& start) {
 void embedStart(Document& document, const std::string& configuration_file, Problems& problems) {
   const YAML::Node value = findValue(document.root, kStart);
   if (!value.IsDefined() || value.IsNull() || value.IsMap()) return;
-  const std::string expected = "the name of a start file (simulate --save-start), relative to the configuration";
+  const std::string expected = "the name of a start file (simulate --save-start), relative to the configuration, or none";
+  if (value.IsScalar() && value.Scalar() == "none") {  // an override takes the start file away
+    findValue(document.root, "simulation").remove("start");
+    return;
+  }
   if (!value.IsScalar() || value.Scalar().empty()) {
     problems.add({document.place(kStart), kStart, asWritten(value), expected});
     return;

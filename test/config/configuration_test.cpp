@@ -176,7 +176,7 @@ TEST(Configuration, refusesAKeyGivenTwice) {
 
 TEST(Configuration, refusesUnknownSectionsNamingTheNearest) {
   EXPECT_EQ(problemsOf("simulation: {}\nsubsytems: {a: 1}\n"),
-            "t.yaml:2: subsytems = {a: 1}: expected one of the sections description, simulation, subsystems, connections (did you mean 'subsystems'?)");
+            "t.yaml:2: subsytems = {a: 1}: expected one of the sections description, simulation, trim, subsystems, connections (did you mean 'subsystems'?)");
   EXPECT_NE(problemsOf("description: [1]\n").find("description = [1]: expected text"), std::string::npos);
 }
 

@@ -20,13 +20,15 @@ namespace heerk_rotor::test {
 
 using Overrides = std::vector<std::string>;
 
-/// config/<name> with overrides "key=value".
-inline Configuration shipped(const std::string& name, const Overrides& overrides = {}) {
+/// config/<name> with overrides "key=value", from its initial values: the trimmed start belongs to the unchanged configuration.
+inline Configuration shipped(const std::string& name, Overrides overrides = {}) {
+  overrides.insert(overrides.begin(), "simulation.start=none");
   return Configuration::load(std::string(HEERK_SOURCE_DIR) + "/config/" + name, overrides);
 }
 
 /// The same with further connections "[from, to]".
-inline Configuration shippedWith(const std::vector<std::string>& connections, const std::string& name, const Overrides& overrides) {
+inline Configuration shippedWith(const std::vector<std::string>& connections, const std::string& name, Overrides overrides) {
+  overrides.insert(overrides.begin(), "simulation.start=none");
   const std::string path = std::string(HEERK_SOURCE_DIR) + "/config/" + name, head = "\nconnections:\n";
   std::ifstream file(path);
   std::string text{std::istreambuf_iterator<char>(file), {}};

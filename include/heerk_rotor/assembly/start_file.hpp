@@ -14,15 +14,16 @@ namespace heerk_rotor {
 ///   states:   {rotor: {lag_1: -0.034, ...}, ...}
 ///   commands: {swashplate: {collective: 0.17}, ...}
 /// These are entries of x and w as they are, not what `initial:` takes (which models may still complete). A state that has a value
-/// under `initial:` in the configuration keeps that one; a state that the file does not name keeps its initial value.
+/// under `initial:` in the configuration keeps that one; a state that the file does not name keeps its initial value. Names that this
+/// system does not have are passed over with a note: one line that swaps a model must not need another start file.
 struct StartValues {
   std::vector<std::pair<Index, double>> states;  // entry of x, value
   Vector command;                                // (commandSize()) the defaults where the file says nothing
   std::vector<std::string> notes;                // what the file leaves open, and where `initial:` takes precedence
 };
 
-/// Reads simulation.start for this system; nothing there: the declared values and no note. Names that do not exist and
-/// values that are no numbers, or out of a command's range, become problems.
+/// Reads simulation.start for this system; nothing there: the declared values and no note. Values that are no numbers, or out of
+/// a command's range, become problems.
 StartValues readStart(const Configuration& configuration, const CoupledSystem& system, Problems& problems);
 
 /// A fact about where start values come from: key and value.

@@ -164,7 +164,7 @@ TEST_F(ElasticRotor, bladesAreDrawnDeformed) {
       height = std::max(height, p.z);
     }
     EXPECT_NEAR(reach, 4.91, 0.02);   // the radius, and a corner of the chord
-    EXPECT_GT(height, 0.2);           // 2.5 deg of precone alone: 0.21 m
+    EXPECT_GT(height, 0.1);           // 2.5 deg of precone: 0.21 m, part of which rotation flattens
     EXPECT_LT(height, 0.8);
   }
 }
