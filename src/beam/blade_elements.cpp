@@ -6,6 +6,7 @@
 #include <string>
 
 #include "element_shapes.hpp"
+#include "heerk_rotor/beam/gauss_rule.hpp"
 
 namespace heerk_rotor {
 namespace {

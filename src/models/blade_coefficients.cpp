@@ -19,24 +19,31 @@ double entry(const BeamVector& f, const std::vector<int>& free_dof, int i) {
   return row < 0 ? 0.0 : static_cast<double>(f[row]);
 }
 
-/// The shape functions at r, condensed to what is not zero by construction.
+/// The shape functions at r, condensed to what is not zero by construction. Those of held degrees of freedom are left out: they stay zero.
 BladeCoefficients::SectionShape sectionShape(const BladeMatrices& blade, const BladeProperties& properties, double r) {
   BladeCoefficients::SectionShape shape{};
-  const std::vector<double>& nodes = blade.nodes;
   int left = 0;
-  while (left + 2 < static_cast<int>(nodes.size()) && nodes[static_cast<std::size_t>(left) + 1] < r) ++left;
-  const double length = nodes[static_cast<std::size_t>(left) + 1] - nodes[static_cast<std::size_t>(left)];
-  const double s = (r - nodes[static_cast<std::size_t>(left)]) / length;
+  while (left + 2 < static_cast<int>(blade.nodes.size()) && blade.nodes[static_cast<std::size_t>(left) + 1] <= r) ++left;
+  const BeamMatrix rows = blade.shapeRows(r);
+  const auto value = [&](ShapeRow row, int node, NodeDof dof) {
+    const int column = blade.free_dof[static_cast<std::size_t>(kNodeDofs * node + dof)];
+    return column < 0 ? 0.0 : static_cast<double>(rows(row, column));
+  };
+  // v and w have the same functions; a hinge may free the slope of one of them only.
+  const auto either = [&](ShapeRow row_v, NodeDof dof_v, ShapeRow row_w, NodeDof dof_w, int node) {
+    const double of_v = value(row_v, node, dof_v);
+    return of_v != 0.0 ? of_v : value(row_w, node, dof_w);
+  };
+  for (int side = 0; side < 2; ++side) {
+    const int node = left + side;
+    shape.v[2 * side] = either(kRowV, kDofV, kRowW, kDofW, node);
+    shape.v[2 * side + 1] = either(kRowV, kDofSlopeV, kRowW, kDofSlopeW, node);
+    shape.slope[2 * side] = either(kRowSlopeV, kDofV, kRowSlopeW, kDofW, node);
+    shape.slope[2 * side + 1] = either(kRowSlopeV, kDofSlopeV, kRowSlopeW, kDofSlopeW, node);
+    shape.twist[side] = value(kRowTwist, node, kDofTwist);
+  }
   shape.element = left;
   shape.radius = r;
-  const double value[4] = {1 - s * s * (3 - 2 * s), length * s * (1 - s) * (1 - s), s * s * (3 - 2 * s), -length * s * s * (1 - s)};
-  const double slope[4] = {-6 * s * (1 - s) / length, (1 - s) * (1 - 3 * s), 6 * s * (1 - s) / length, s * (3 * s - 2)};
-  for (int i = 0; i < 4; ++i) {
-    shape.v[i] = value[i];
-    shape.slope[i] = slope[i];
-  }
-  shape.twist[0] = 1 - s;
-  shape.twist[1] = s;
   shape.built_in_twist = static_cast<double>(bladeSection(properties, r).twist);
   return shape;
 }

@@ -1,48 +1,25 @@
 #include "heerk_rotor/models/rotor_sections.hpp"
 
-#include <cmath>
-
+#include "heerk_rotor/beam/gauss_rule.hpp"
 #include "heerk_rotor/config/section.hpp"
 #include "heerk_rotor/models/registry.hpp"
 
 namespace heerk_rotor {
-namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-/// Root number i of the Legendre polynomial P_n in (-1, 1) and its derivative there, by Newton from Tricomi's estimate.
-void legendreRoot(int n, int i, double& root, double& derivative) {
-  root = -std::cos(kPi * (i + 0.75) / (n + 0.5));
-  for (int iteration = 0; iteration < 100; ++iteration) {
-    double p = 1.0, previous = 0.0;
-    for (int k = 1; k <= n; ++k) {
-      const double next = ((2 * k - 1) * root * p - (k - 1) * previous) / k;
-      previous = p;
-      p = next;
-    }
-    derivative = n * (root * p - previous) / (root * root - 1.0);
-    const double correction = p / derivative;
-    root -= correction;
-    if (std::abs(correction) < 1e-16) return;
-  }
-}
-
-}  // namespace
-
 void placeSections(SectionRule rule, int count, double inner, double outer, RotorSections& sections) {
   sections.r.clear();
   sections.width.clear();
   const double length = outer - inner;
-  for (int i = 0; i < count; ++i) {
-    if (rule == SectionRule::kMidpoint) {
+  if (rule == SectionRule::kMidpoint) {
+    for (int i = 0; i < count; ++i) {
       sections.r.push_back(inner + length * (i + 0.5) / count);
       sections.width.push_back(length / count);
-    } else {
-      double root, derivative;
-      legendreRoot(count, i, root, derivative);
-      sections.r.push_back(inner + 0.5 * length * (1.0 + root));
-      sections.width.push_back(length / ((1.0 - root * root) * derivative * derivative));
     }
+    return;
+  }
+  const GaussRule gauss(count);
+  for (std::size_t i = 0; i < gauss.node.size(); ++i) {
+    sections.r.push_back(inner + length * static_cast<double>(gauss.node[i]));
+    sections.width.push_back(length * static_cast<double>(gauss.weight[i]));
   }
 }
 
