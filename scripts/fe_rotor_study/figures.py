@@ -110,7 +110,7 @@ def hub_coupling(study, folder, checks):
         draw(axis, curves[name], style, label=name)
     finish(axis, "HEERK4, linear airloads: where order is lost")
     axis.set(xlim=(80, 2e3), ylim=(1e-13, 1), ylabel="weighted error after one revolution")
-    axis.legend(loc="center left")
+    axis.legend(loc="center right", bbox_to_anchor=(1.0, 0.7))
     figure.tight_layout()
     figure.savefig(folder / "hub_coupling.png", dpi=80)
     plt.close(figure)
@@ -124,7 +124,7 @@ def hub_coupling(study, folder, checks):
 Orders between 100 and 1600 steps: {", ".join(f"{name} {order:.2f}" for name, order in orders.items())}. S describes the blades on a hub that does not
 move. The hub's acceleration is driven by the root forces, which contain the stiff omega² q, and acts back on the modes through f~: that part of the
 stiffness is outside S, and f~ is not Lipschitz independently of the stiffness, as the theory of stiff orders assumes. Holding the fuselage (`fuselage.mode: rigid`)
-restores order 4, although hub and elastic mast still turn freely; more structural damping does not (beta = 10⁻⁵: unchanged). The bumps of the curves above have the same cause: where h omega
+restores order 4, although hub and elastic mast still turn freely; so does a fuselage of thousandfold inertia (3.99): it is the root moments, through roll and pitch; more structural damping does not (beta = 10⁻⁵: unchanged). The bumps of the curves above have the same cause: where h omega
 is a multiple of 2 pi for a mode (17866 rad/s at 402 steps), e^(ih omega) = 1 and this feedback acts in resonance; the paper saw a bump near 100 steps.
 A sudden load at t = 0 (run without `--trim` or `simulation.start`) lets modes ring that no practical step resolves (h omega >> 1, damping 10⁻⁴ and less at
 mid frequencies): their phase is lost, and the error of the outputs stays at some percent for every step and method. Real-time runs should start trimmed.
