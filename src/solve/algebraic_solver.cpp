@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "broyden_memory.hpp"
 #include "heerk_rotor/core/coupling_graph.hpp"
 #include "heerk_rotor/solve/evaluation_plan.hpp"
 #include "heerk_rotor/solve/sparse_lu.hpp"
@@ -13,23 +14,19 @@ namespace {
 
 constexpr double kLostContraction = 0.3;   // ratio of two corrections above which the Jacobian is refreshed
 constexpr double kDifference = 1.5e-8;     // relative step of forward differences, sqrt of the machine precision
-constexpr std::size_t kMemory = 8;         // corrections that Broyden's update remembers
 constexpr double kRoundOff = 64 * 2.2e-16; // a residual below this share of the value cannot be lowered any more
 
 /// A plan with the numbers that solving it needs.
 struct Loop {
   explicit Loop(const LoopPlan& p) : plan(p), lu(p.gradient), matrix(p.gradient.rows.size(), 0.0), nominal(p.unknowns.size(), 1.0), inverse_nominal(nominal),
-        step(p.unknowns.size(), 0.0), reference(p.unknowns.size(), 0.0), kept(p.unknowns.size(), 0.0),
-        taken(kMemory * p.unknowns.size(), 0.0) {}
+        step(p.unknowns.size(), 0.0), reference(p.unknowns.size(), 0.0), kept(p.unknowns.size(), 0.0), broyden(p.unknowns.size()) {}
   LoopPlan plan;
   SparseLu lu;
   std::vector<double> matrix;            // I - dg/dy in units of the nominal magnitudes, in the order of plan.gradient.rows
   std::vector<double> nominal, inverse_nominal;  // magnitude of each unknown; makes pivots of different quantities comparable
   bool factorized = false;
   std::vector<double> step, reference, kept;
-  std::vector<double> taken;             // the corrections of this solve so far, one after the other, in nominal magnitudes
-  double square[kMemory] = {};           // of their norms
-  std::size_t remembered = 0;
+  BroydenMemory broyden;                 // of the present solve
   std::vector<double> jacobian;          // scratch for a model's own Jacobian
 };
 
@@ -159,47 +156,13 @@ struct AlgebraicSolver::Implementation {
     }
   }
 
-  /// Broyden's update of a kept LU, from the corrections of this solve: what is left of the residual after a correction tells how wrong
-  /// the Jacobian is in that direction. Loops of inertia are nearly linear, so that few directions are enough (Kelley, Solving
-  /// Nonlinear Equations with Newton's Method, SIAM 2003, chapter 4).
-  void improve(Loop& loop) const noexcept {
-    const std::size_t n = loop.step.size();
-    const auto projection = [&](std::size_t j) {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < n; ++k) sum += loop.taken[j * n + k] * loop.step[k];
-      return sum / loop.square[j];
-    };
-    for (std::size_t j = 0; j + 1 < loop.remembered; ++j) {
-      const double share = projection(j);
-      for (std::size_t k = 0; k < n; ++k) loop.step[k] += share * loop.taken[(j + 1) * n + k];
-    }
-    if (loop.remembered == 0) return;
-    const double share = projection(loop.remembered - 1);
-    if (!(std::abs(1.0 - share) > 0.1)) return;  // nearly singular update
-    for (std::size_t k = 0; k < n; ++k) loop.step[k] /= 1.0 - share;
-  }
-
-  /// Keeps the correction that is being applied.
-  void remember(Loop& loop) const noexcept {
-    const std::size_t n = loop.step.size();
-    if (loop.remembered == kMemory) loop.remembered = 0;
-    double square = 0.0;
-    for (std::size_t k = 0; k < n; ++k) {
-      const double scaled = loop.step[k] * loop.inverse_nominal[k];
-      loop.taken[loop.remembered * n + k] = scaled;
-      square += scaled * scaled;
-    }
-    if (!(square > 0.0)) return;
-    loop.square[loop.remembered++] = square;
-  }
-
   /// loop.step (a residual) becomes the Newton correction. Its maximum over max(nominal, |y|), infinite when not finite,
   /// estimates the error of the unknowns; `worst` is the entry that has it.
   double correction(Loop& loop, Index& worst) noexcept {
     const std::size_t n = loop.step.size();
     for (std::size_t k = 0; k < n; ++k) loop.step[k] *= loop.inverse_nominal[k];
     loop.lu.solve(loop.step.data());
-    improve(loop);
+    loop.broyden.improve(loop.step.data());
     double norm = -1.0;
     for (std::size_t k = 0; k < n; ++k) {
       const Index e = loop.plan.unknowns[k];
@@ -221,7 +184,7 @@ struct AlgebraicSolver::Implementation {
     SolveReport report;
     double previous = HUGE_VAL;
     bool fresh = false;
-    loop.remembered = 0;
+    loop.broyden.clear();
     for (;; ++report.iterations) {
       residual(loop, t, x, w);
       if (!loop.factorized && !refresh(loop, t, x, w)) break;
@@ -231,7 +194,7 @@ struct AlgebraicSolver::Implementation {
         if (residualIsRoundOff(loop)) return report;  // corrections only stir round-off
         if (report.iterations > 0 && !fresh) {
           if (!refresh(loop, t, x, w)) break;
-          loop.remembered = 0;
+          loop.broyden.clear();
           report.error = correction(loop, report.entry);
           fresh = true;
         } else {
@@ -240,7 +203,7 @@ struct AlgebraicSolver::Implementation {
       }
       if (report.iterations >= options.max_iterations || !std::isfinite(report.error)) break;
       previous = report.error;
-      remember(loop);
+      loop.broyden.remember(loop.step.data(), loop.inverse_nominal.data());
       for (std::size_t k = 0; k < loop.plan.unknowns.size(); ++k) y[loop.plan.unknowns[k]] += loop.step[k];
       ++counters.newton_iterations;
     }

@@ -127,6 +127,7 @@ TEST(FeRotorConvergence, everyMethodHasItsOrderOverOneRevolution) {
   // from HEERK4, as the next test shows.
   EXPECT_NEAR(revolution.order("HEERK2", kSteps, exact), 2.0, 0.25);
   EXPECT_NEAR(revolution.order("HEERK3", kSteps, exact), 3.0, 0.25);
+  // Open: order 4 is asked for here too and not reached (3.57). Until it is, this holds what there is.
   EXPECT_NEAR(revolution.order("HEERK4", kSteps, exact), 3.75, 0.35);
   const Vector finest = revolution.end("HEERK4", kSteps.back());
   EXPECT_LT(revolution.bladeError(finest, exact), 1e-11);  // the paper's curve flattens at 1000 steps

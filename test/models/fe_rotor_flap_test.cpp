@@ -106,6 +106,7 @@ TEST(FeRotorFlap, coefficientsAreThoseOfTheFlapEquation) {
       EXPECT_NEAR(of_full_air[i] / kDegree, closed[i] / kDegree, 0.05) << at;  // third powers of the inflow angle (0.2 rad inboard), second harmonics
       // The hinge of the FE blade turns with the pitch (0.135 rad), so that flapping has a part in the disc plane,
       // where no centrifugal stiffness is (nu^2 = cos^2 theta: 1 deg of phase) and Coriolis forces of coning act. The textbook's does not.
+      // Open: 0.2 deg is asked for, one of the six values is 0.201.
       EXPECT_NEAR(of_full[i] / kDegree, closed[i] / kDegree, 0.25) << at;
     }
   }
