@@ -15,6 +15,7 @@ using namespace test;
 
 const Overrides kSmooth{"subsystems.airloads.polar=linear", "subsystems.fuselage.shaft_tilt_forward_deg=0.0"};
 const Overrides kFuselageHeld{"subsystems.fuselage.mode=rigid"};  // the mast stays elastic, the hub turns freely
+const Overrides kAllModes{"subsystems.rotor.modes=0"};
 
 /// One revolution in forward flight, from one start for all methods and steps.
 class Revolution {
@@ -122,24 +123,27 @@ const std::vector<long> kSteps{100, 200, 400, 800, 1600, 3200};
 TEST(FeRotorConvergence, everyMethodHasItsOrderOverOneRevolution) {
   const Revolution revolution;
   const Vector exact = revolution.end("HEERK4", 16000);
-  // The errors are a little uneven: where h omega of a blade mode is a multiple of 2 pi (17866 rad/s at 402 steps), e^{ih omega} = 1 and the
-  // mode is driven in resonance by what S leaves out, the motion of the hub that the mode itself causes. That also takes half an order
-  // from HEERK4, as the next test shows.
   EXPECT_NEAR(revolution.order("HEERK2", kSteps, exact), 2.0, 0.25);
   EXPECT_NEAR(revolution.order("HEERK3", kSteps, exact), 3.0, 0.25);
-  // Open: order 4 is asked for here too and not reached (3.57). Until it is, this holds what there is.
-  EXPECT_NEAR(revolution.order("HEERK4", kSteps, exact), 3.75, 0.35);
+  EXPECT_NEAR(revolution.order("HEERK4", kSteps, exact), 4.1, 0.35);  // a little steep: at 100 steps the upper half of the modes is not resolved yet
   const Vector finest = revolution.end("HEERK4", kSteps.back());
-  EXPECT_LT(revolution.bladeError(finest, exact), 1e-11);  // the paper's curve flattens at 1000 steps
+  EXPECT_LT(revolution.bladeError(finest, exact), 1e-12);  // the paper's curve flattens at 1000 steps
   const double others = revolution.otherError(finest, exact);
   report("HEERK4, finest, other states", others);
   EXPECT_LT(others, 1e-10);  // some of them are hundreds of times smaller in this revolution than before
 }
 
-TEST(FeRotorConvergence, orderFourInFullWhereTheFuselageDoesNotMove) {
-  // S describes blades on a mount that does not move. A free fuselage feeds their stiff root forces back through f~; the coupling with
-  // its inertia turns with the azimuth, so that no constant S holds it.
-  const Revolution revolution(kFuselageHeld);
+// S describes blades on a mount that does not move. A free fuselage feeds their stiff root forces back through f~, and what blade modes that no
+// step resolves carry of that costs order: a matter of the problem, not of the method (docs/paper_fe_rotor). Two ways out:
+TEST(FeRotorConvergence, modesThatNoStepResolvesCostHalfAnOrderWithAFuselageThatMoves) {
+  const Revolution all(kAllModes), resolvable;
+  const std::vector<long> steps{330, 500, 730, 1000, 1600};
+  EXPECT_NEAR(all.order("HEERK4", steps, all.end("HEERK4", 9000)), 3.25, 0.35);
+  EXPECT_GE(resolvable.order("HEERK4", steps, resolvable.end("HEERK4", 9000)), 3.9);
+}
+
+TEST(FeRotorConvergence, orderFourInFullWithAllModesWhereTheFuselageDoesNotMove) {
+  const Revolution revolution(kAllModes + kFuselageHeld);
   const Vector exact = revolution.end("HEERK4", 9000);
   EXPECT_NEAR(revolution.order("HEERK4", {100, 150, 220, 330, 500, 730, 1090, 1600}, exact), 4.0, 0.15);
 }
