@@ -9,6 +9,8 @@ struct Size {
   Index operator()(const ZeroStiff& zero) const { return zero.size; }
   Index operator()(const DenseStiff& dense) const { return dense.S.rows(); }
   Index operator()(const ModalStiff& modal) const { return 2 * modal.omega.size(); }
+  Index operator()(const SecondOrderStiff& part) const { return 2 * part.stiffness.rows(); }
+  Index operator()(const PairStiff& pairs) const { return 2 * static_cast<Index>(pairs.blocks.size()); }
   Index operator()(const BlockStiff& block) const {
     Index size = 0;
     for (const StiffBlock& b : block.blocks) size += stiffSize(b.part);
@@ -27,6 +29,22 @@ struct Written {
     S.bottomRightCorner(m, m).diagonal() = -modal.damping;
     return S;
   }
+  Matrix operator()(const SecondOrderStiff& part) const {
+    const Index m = part.stiffness.rows();
+    Matrix S = Matrix::Zero(2 * m, 2 * m);
+    S.topRightCorner(m, m).setIdentity();
+    S.bottomLeftCorner(m, m) = -part.stiffness;
+    S.bottomRightCorner(m, m) = -part.damping;
+    return S;
+  }
+  Matrix operator()(const PairStiff& pairs) const {
+    const Index m = static_cast<Index>(pairs.blocks.size());
+    Matrix S = Matrix::Zero(2 * m, 2 * m);
+    for (Index i = 0; i < m; ++i)
+      for (Index row = 0; row < 2; ++row)
+        for (Index column = 0; column < 2; ++column) S(i + row * m, i + column * m) = pairs.blocks[static_cast<std::size_t>(i)](row, column);
+    return S;
+  }
   Matrix operator()(const BlockStiff& block) const {
     const Index size = Size{}(block);
     Matrix S = Matrix::Zero(size, size);
@@ -40,6 +58,15 @@ struct Written {
   }
 };
 
+/// sum += sign A x. Column by column: needs no temporary, whatever Eigen's product kernels do.
+void addProduct(const Matrix& A, const double* x, double sign, double* sum) noexcept {
+  for (Index j = 0; j < A.cols(); ++j) {
+    const double* column = A.data() + j * A.rows();
+    const double x_j = sign * x[j];
+    for (Index i = 0; i < A.rows(); ++i) sum[i] += column[i] * x_j;
+  }
+}
+
 struct Subtract {
   const double* x;
   const double* f;
@@ -49,14 +76,8 @@ struct Subtract {
     for (Index i = 0; i < zero.size; ++i) remainder[i] = f[i];
   }
   void operator()(const DenseStiff& dense) const noexcept {
-    // Column by column: needs no temporary, whatever Eigen's product kernels do.
-    const Index n = dense.S.rows();
-    for (Index i = 0; i < n; ++i) remainder[i] = f[i];
-    for (Index j = 0; j < n; ++j) {
-      const double* column = dense.S.data() + j * n;
-      const double x_j = x[j];
-      for (Index i = 0; i < n; ++i) remainder[i] -= column[i] * x_j;
-    }
+    for (Index i = 0; i < dense.S.rows(); ++i) remainder[i] = f[i];
+    addProduct(dense.S, x, -1.0, remainder);
   }
   void operator()(const ModalStiff& modal) const noexcept {
     const Index m = modal.omega.size();
@@ -66,6 +87,21 @@ struct Subtract {
       const double omega = modal.omega[i];
       remainder[i] = f[i] - v[i];
       remainder[m + i] = f[m + i] + (omega * omega * q[i] + modal.damping[i] * v[i]);
+    }
+  }
+  void operator()(const SecondOrderStiff& part) const noexcept {
+    const Index m = part.stiffness.rows();
+    for (Index i = 0; i < m; ++i) remainder[i] = f[i] - x[m + i];
+    for (Index i = 0; i < m; ++i) remainder[m + i] = f[m + i];
+    addProduct(part.stiffness, x, 1.0, remainder + m);
+    addProduct(part.damping, x + m, 1.0, remainder + m);
+  }
+  void operator()(const PairStiff& pairs) const noexcept {
+    const Index m = static_cast<Index>(pairs.blocks.size());
+    for (Index i = 0; i < m; ++i) {
+      const Eigen::Matrix2d& block = pairs.blocks[static_cast<std::size_t>(i)];
+      remainder[i] = f[i] - (block(0, 0) * x[i] + block(0, 1) * x[m + i]);
+      remainder[m + i] = f[m + i] - (block(1, 0) * x[i] + block(1, 1) * x[m + i]);
     }
   }
   void operator()(const BlockStiff& block) const noexcept {

@@ -67,6 +67,21 @@ void validate(const StiffPart& part, const std::string& where) {
           refuse(where, "mode " + std::to_string(i) + " has omega = " + std::to_string(modal->omega[i]) + " rad/s, damping = " +
                             std::to_string(modal->damping[i]) +
                             " 1/s, expected finite and >= 0; hint: negative damping belongs into f~ or a dense S");
+  } else if (const auto* second = std::get_if<SecondOrderStiff>(&part)) {
+    for (const Matrix* matrix : {&second->stiffness, &second->damping}) {
+      if (matrix->rows() != matrix->cols() || matrix->rows() != second->stiffness.rows())
+        refuse(where, "stiffness is " + std::to_string(second->stiffness.rows()) + " x " + std::to_string(second->stiffness.cols()) + ", damping " +
+                          std::to_string(second->damping.rows()) + " x " + std::to_string(second->damping.cols()) + ", expected square and of one size");
+      if (!matrix->allFinite()) refuse(where, "stiffness or damping has entries that are not finite");
+    }
+  } else if (const auto* pairs = std::get_if<PairStiff>(&part)) {
+    for (std::size_t i = 0; i < pairs->blocks.size(); ++i) {
+      const Eigen::Matrix2d& b = pairs->blocks[i];
+      const bool rotation = b(0, 0) == b(1, 1) && b(0, 1) == -b(1, 0), diagonal = b(0, 1) == 0.0 && b(1, 0) == 0.0;
+      if (!b.allFinite() || !(rotation || diagonal))
+        refuse(where, "pair " + std::to_string(i) + " is [[" + std::to_string(b(0, 0)) + ", " + std::to_string(b(0, 1)) + "], [" + std::to_string(b(1, 0)) + ", " +
+                          std::to_string(b(1, 1)) + "]], expected finite [[a, b], [-b, a]] or a diagonal");
+    }
   } else {
     const auto& blocks = std::get<BlockStiff>(part).blocks;
     for (std::size_t i = 0; i < blocks.size(); ++i) validate(blocks[i].part, where + ".blocks[" + std::to_string(i) + "]");
@@ -80,6 +95,8 @@ struct Make {
   std::unique_ptr<LinearPropagator> operator()(const ZeroStiff& zero) const { return makeZeroPropagator(zero.size, h, tableau); }
   std::unique_ptr<LinearPropagator> operator()(const DenseStiff& dense) const { return makeDensePropagator(dense, h, tableau); }
   std::unique_ptr<LinearPropagator> operator()(const ModalStiff& modal) const { return makeModalPropagator(modal, h, tableau); }
+  std::unique_ptr<LinearPropagator> operator()(const SecondOrderStiff& part) const { return makeDensePropagator({stiffMatrix(part)}, h, tableau); }
+  std::unique_ptr<LinearPropagator> operator()(const PairStiff& pairs) const { return makePairPropagator(pairs, h, tableau); }
   std::unique_ptr<LinearPropagator> operator()(const BlockStiff& block) const {
     std::vector<StiffPart> parts;
     flatten(block, parts);

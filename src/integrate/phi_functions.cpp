@@ -31,14 +31,19 @@ Real inverseFactorial(int n) {
 
 // ---------------------------------------------------------------------------------------------------------------- numbers
 
-Real phiReal(int k, Real z) {
+Real expMinusOne(Real z) { return std::expm1(z); }
+std::complex<Real> expMinusOne(std::complex<Real> z) { return std::exp(z) - Real(1); }  // called with |z| > 2 only
+
+/// Number: Real or std::complex<Real>.
+template <typename Number>
+Number phiNumber(int k, Number z) {
   if (k == 0) return std::exp(z);
   if (std::abs(z) <= 2) {
-    Real sum = 0;
+    Number sum = 0;
     for (int i = kScalarDegree; i >= 0; --i) sum = sum * z + inverseFactorial(i + k);
     return sum;
   }
-  Real value = std::expm1(z) / z;
+  Number value = expMinusOne(z) / z;
   for (int j = 1; j < k; ++j) value = (value - inverseFactorial(j)) / z;
   return value;
 }
@@ -161,7 +166,13 @@ Eigen::Matrix2d rounded(Real qq, Real qv, Real vq, Real vv) {
 
 double phi(int k, double z) {
   if (k < 0 || k > kMaxPhi) throw std::invalid_argument("phi: k = " + std::to_string(k) + ", expected 0.." + std::to_string(kMaxPhi));
-  return static_cast<double>(phiReal(k, z));
+  return static_cast<double>(phiNumber<Real>(k, z));
+}
+
+std::complex<double> phi(int k, std::complex<double> z) {
+  if (k < 0 || k > kMaxPhi) throw std::invalid_argument("phi: k = " + std::to_string(k) + ", expected 0.." + std::to_string(kMaxPhi));
+  const std::complex<Real> value = phiNumber(k, std::complex<Real>(z.real(), z.imag()));
+  return {static_cast<double>(value.real()), static_cast<double>(value.imag())};
 }
 
 Vector balancingScales(const Matrix& A) {
@@ -255,8 +266,8 @@ ModalPhi::ModalPhi(double omega, double damping, double h) {
   const Real fast = -(s + root);
   const Real slow = a * (a / fast);
   for (int k = 0; k <= kMaxPhi; ++k) {
-    const Real p_slow = phiReal(k, slow);
-    const Real p_fast = phiReal(k, fast);
+    const Real p_slow = phiNumber<Real>(k, slow);
+    const Real p_fast = phiNumber<Real>(k, fast);
     const Real f1 = (p_slow - p_fast) / (2 * root);
     phi_[k] = rounded((slow * p_fast - fast * p_slow) / (2 * root), f1 * H, -f1 * H * omega2, (slow * p_slow - fast * p_fast) / (2 * root));
   }

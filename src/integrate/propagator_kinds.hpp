@@ -11,6 +11,7 @@ namespace heerk_rotor {
 std::unique_ptr<LinearPropagator> makeZeroPropagator(Index size, double h, const Tableau& tableau);
 std::unique_ptr<LinearPropagator> makeDensePropagator(const DenseStiff& part, double h, const Tableau& tableau);
 std::unique_ptr<LinearPropagator> makeModalPropagator(const ModalStiff& part, double h, const Tableau& tableau);
+std::unique_ptr<LinearPropagator> makePairPropagator(const PairStiff& part, double h, const Tableau& tableau);
 
 /// From the finished matrices, one (n x n) per entry of the plan.
 std::unique_ptr<LinearPropagator> makeMatrixPropagator(RowPlan plan, const std::vector<Matrix>& matrices);

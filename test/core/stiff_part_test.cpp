@@ -24,6 +24,23 @@ DenseStiff dense() {
   return part;
 }
 
+SecondOrderStiff secondOrder() {
+  SecondOrderStiff part;
+  part.stiffness.resize(2, 2);
+  part.stiffness << 4.0, -1.0, -2.0, 3.0;
+  part.damping.resize(2, 2);
+  part.damping << 0.5, 0.25, -0.125, 1.0;
+  return part;
+}
+
+PairStiff pairs() {
+  PairStiff part;
+  part.blocks.resize(2);
+  part.blocks[0] << -0.5, 3.0, -3.0, -0.5;
+  part.blocks[1] << -2.0, 0.0, 0.0, -7.0;
+  return part;
+}
+
 /// Every kind, one of them nested twice.
 StiffPart everything() {
   BlockStiff inner;
@@ -33,6 +50,8 @@ StiffPart everything() {
   outer.blocks.push_back({ZeroStiff{2}});
   outer.blocks.push_back({inner});
   outer.blocks.push_back({dense()});
+  outer.blocks.push_back({secondOrder()});
+  outer.blocks.push_back({pairs()});
   return outer;
 }
 
@@ -40,7 +59,9 @@ TEST(StiffPart, sizeCountsTwoStatesPerModeAndAddsUpBlocks) {
   EXPECT_EQ(stiffSize(ZeroStiff{5}), 5);
   EXPECT_EQ(stiffSize(dense()), 3);
   EXPECT_EQ(stiffSize(twoModes()), 4);
-  EXPECT_EQ(stiffSize(everything()), 2 + 4 + 3);
+  EXPECT_EQ(stiffSize(secondOrder()), 4);
+  EXPECT_EQ(stiffSize(pairs()), 4);
+  EXPECT_EQ(stiffSize(everything()), 2 + 4 + 3 + 4 + 4);
   EXPECT_EQ(stiffSize(BlockStiff{}), 0);
 }
 
@@ -53,17 +74,37 @@ TEST(StiffPart, modalMatrixIsAllPositionsThenAllVelocities) {
   EXPECT_EQ(stiffMatrix(twoModes()), expected);
 }
 
+TEST(StiffPart, secondOrderMatrixIsAllPositionsThenAllVelocities) {
+  Matrix expected(4, 4);
+  expected << 0, 0, 1, 0,  //
+      0, 0, 0, 1,          //
+      -4, 1, -0.5, -0.25,  //
+      2, -3, 0.125, -1;
+  EXPECT_EQ(stiffMatrix(secondOrder()), expected);
+}
+
+TEST(StiffPart, pairMatrixCouplesStateIWithStateMPlusI) {
+  Matrix expected(4, 4);
+  expected << -0.5, 0, 3, 0,  //
+      0, -2, 0, 0,            //
+      -3, 0, -0.5, 0,         //
+      0, 0, 0, -7;
+  EXPECT_EQ(stiffMatrix(pairs()), expected);
+}
+
 TEST(StiffPart, blockMatrixHasItsPiecesOnTheDiagonalAndNothingElse) {
   const Matrix S = stiffMatrix(everything());
-  ASSERT_EQ(S.rows(), 9);
-  Matrix expected = Matrix::Zero(9, 9);
+  ASSERT_EQ(S.rows(), 17);
+  Matrix expected = Matrix::Zero(17, 17);
   expected.block(2, 2, 4, 4) = stiffMatrix(twoModes());
   expected.block(6, 6, 3, 3) = dense().S;
+  expected.block(9, 9, 4, 4) = stiffMatrix(secondOrder());
+  expected.block(13, 13, 4, 4) = stiffMatrix(pairs());
   EXPECT_EQ(S, expected);
 }
 
 TEST(StiffPart, subtractingIsFMinusSTimesXForEveryKind) {
-  for (const StiffPart& part : {StiffPart(ZeroStiff{4}), StiffPart(dense()), StiffPart(twoModes()), everything()}) {
+  for (const StiffPart& part : {StiffPart(ZeroStiff{4}), StiffPart(dense()), StiffPart(twoModes()), StiffPart(secondOrder()), StiffPart(pairs()), everything()}) {
     const Index n = stiffSize(part);
     const Vector x = Vector::LinSpaced(n, -1.0, 2.0);
     const Vector f = Vector::LinSpaced(n, 5.0, 3.0);

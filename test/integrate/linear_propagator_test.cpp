@@ -51,6 +51,20 @@ Matrix randomMatrix(Index rows, Index columns, std::mt19937& random) {
   return result;
 }
 
+/// Complex and real pairs in turn, |h block| up to `size` with h = 1, none growing.
+PairStiff pairBlocks(int m, double size, std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  PairStiff part;
+  for (int i = 0; i < m; ++i) {
+    const double a = -size * unit(random), b = i % 3 == 2 ? -size * unit(random) : size * (unit(random) - 0.5);
+    Eigen::Matrix2d block;
+    if (i % 3 == 2) block << a, 0.0, 0.0, b;
+    else block << 0.1 * a, b, -b, 0.1 * a;
+    part.blocks.push_back(block);
+  }
+  return part;
+}
+
 /// Largest deviation of any row from the formula of linear_propagator.hpp, written out with matrices of S; x and F are of size 1.
 double worstRow(const StiffPart& part, const Matrix& S, double h, const Tableau& t, std::mt19937& random) {
   std::map<double, std::vector<Matrix>> known;
@@ -90,6 +104,21 @@ TEST_P(PropagatorOfExponentialMethod, modalRowsAreTheDenseOnesForEveryNumberOfPa
     const ModalStiff modal = modes(m, 3.0, random);
     EXPECT_LE(worstRow(modal, stiffMatrix(modal), 0.7, GetParam(), random), 1e-14) << m << " pairs";
   }
+}
+
+TEST_P(PropagatorOfExponentialMethod, pairRowsAreTheDenseOnesForEveryNumberOfPairs) {
+  std::mt19937 random(22);
+  for (int m : {1, 2, 3, 4, 5, 15, 16, 17, 21})
+    for (double size : {0.01, 3.0, 400.0}) {
+      const PairStiff part = pairBlocks(m, size, random);
+      EXPECT_LE(worstRow(part, stiffMatrix(part), 0.7, GetParam(), random), 2e-14) << m << " pairs, size " << size;
+    }
+}
+
+TEST_P(PropagatorOfExponentialMethod, secondOrderRowsAreTheDenseOnes) {
+  std::mt19937 random(23);
+  const SecondOrderStiff part{randomMatrix(3, 3, random) + 3.0 * Matrix::Identity(3, 3), randomMatrix(3, 3, random)};
+  EXPECT_LE(worstRow(part, stiffMatrix(part), 0.4, GetParam(), random), 1e-14);
 }
 
 TEST_P(PropagatorOfExponentialMethod, stiffModalRowsAreTheDenseOnesInTheEnergyNorm) {
@@ -241,6 +270,10 @@ TEST(LinearPropagator, refusesWrongPartsByTheirPath) {
   EXPECT_NE(message(DenseStiff{Matrix::Zero(2, 3)}).find("2 x 3, expected square"), std::string::npos);
   EXPECT_NE(message(DenseStiff{Matrix::Constant(2, 2, INFINITY)}), "");
   EXPECT_NE(message(ModalStiff{Vector::Ones(2), Vector::Ones(1)}).find("2 omega"), std::string::npos);
+  EXPECT_NE(message(SecondOrderStiff{Matrix::Zero(2, 2), Matrix::Zero(3, 3)}).find("damping 3 x 3"), std::string::npos);
+  PairStiff skewed;
+  skewed.blocks.push_back((Eigen::Matrix2d() << 1.0, 2.0, 2.0, 1.0).finished());
+  EXPECT_NE(message(skewed).find("pair 0"), std::string::npos);
   BlockStiff inner, outer;
   inner.blocks.push_back({ZeroStiff{1}});
   inner.blocks.push_back({ModalStiff{Vector::Ones(1), -Vector::Ones(1)}});

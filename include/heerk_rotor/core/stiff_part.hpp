@@ -2,6 +2,8 @@
 #include <variant>
 #include <vector>
 
+#include <Eigen/StdVector>
+
 #include "heerk_rotor/core/types.hpp"
 
 namespace heerk_rotor {
@@ -25,6 +27,18 @@ struct ModalStiff {
   Vector damping;  // (m) c = 2 zeta omega, >= 0 [1/s]
 };
 
+/// A second-order system q'' = -stiffness q - damping q'. States are all q, then all q' (n = 2 m): S = [[0, I], [-stiffness, -damping]].
+struct SecondOrderStiff {
+  Matrix stiffness;  // M^-1 K (m x m) [1/s^2]
+  Matrix damping;    // M^-1 (C + gyroscopic terms) (m x m) [1/s]
+};
+
+/// A system brought to diagonal form: state i and state m + i are one block (n = 2 m), either [[a, b], [-b, a]], a pair of complex
+/// eigenvalues a +- i b, or diag(a_1, a_2), two real ones.
+struct PairStiff {
+  std::vector<Eigen::Matrix2d, Eigen::aligned_allocator<Eigen::Matrix2d>> blocks;  // (m) [1/s]
+};
+
 struct StiffBlock;
 
 /// Consecutive blocks along the diagonal, each of its own kind; sizes add up to the model's state size.
@@ -32,7 +46,7 @@ struct BlockStiff {
   std::vector<StiffBlock> blocks;
 };
 
-using StiffPart = std::variant<ZeroStiff, DenseStiff, ModalStiff, BlockStiff>;
+using StiffPart = std::variant<ZeroStiff, DenseStiff, ModalStiff, SecondOrderStiff, PairStiff, BlockStiff>;
 
 struct StiffBlock {
   StiffPart part;

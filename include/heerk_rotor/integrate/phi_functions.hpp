@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <complex>
 #include <vector>
 
 #include "heerk_rotor/core/types.hpp"
@@ -15,6 +16,7 @@ constexpr int kMaxPhi = 4;
 
 /// phi_k of a number, k = 0..kMaxPhi.
 double phi(int k, double z);
+std::complex<double> phi(int k, std::complex<double> z);
 
 /// phi_0(A) .. phi_kmax(A) of a dense square matrix.
 /// Method: balancing by powers of two; scaling chosen from ||A^p||^(1/p), p = 2, 3, 4 (Al-Mohy & Higham, SIAM J. Matrix Anal.

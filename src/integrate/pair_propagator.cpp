@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <complex>
 #include <map>
 #include <utility>
 #include <vector>
@@ -69,18 +71,18 @@ class PairPropagator final : public LinearPropagator {
   Vector table_;  // [entry][qq, qv, vq, vv][pair, padded to pitch_], aligned by Eigen
 };
 
-}  // namespace
-
-std::unique_ptr<LinearPropagator> makeModalPropagator(const ModalStiff& part, double h, const Tableau& tableau) {
+/// Tabulates weight * phi_k(node h S) summed over the terms of each entry. `makePhi(pair, node)` returns the phi_k of one block: an object with [k].
+template <typename MakePhi>
+std::unique_ptr<LinearPropagator> fromPairs(Index pairs, double h, const Tableau& tableau, const MakePhi& makePhi) {
   RowPlan plan(tableau);
-  const Index pairs = part.omega.size();
   std::vector<std::vector<Eigen::Matrix2d>> blocks(plan.entries.size());
   for (Index i = 0; i < pairs; ++i) {
-    std::map<double, ModalPhi> phi;  // node -> phi_k(node h S) of this pair
+    std::map<double, decltype(makePhi(i, h))> phi;  // node -> phi_k(node h S) of this pair
     for (std::size_t e = 0; e < plan.entries.size(); ++e) {
       Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
       for (const PhiTerm& term : plan.entries[e].terms) {
-        const auto known = phi.try_emplace(term.node, part.omega[i], part.damping[i], term.node * h).first;
+        auto known = phi.find(term.node);
+        if (known == phi.end()) known = phi.emplace(term.node, makePhi(i, term.node)).first;
         sum += term.weight * known->second[term.k];
       }
       if (plan.entries[e].times_h) sum *= h;
@@ -95,6 +97,31 @@ std::unique_ptr<LinearPropagator> makeModalPropagator(const ModalStiff& part, do
     return makeMatrixPropagator(std::move(plan), matrices);
   }
   return std::make_unique<PairPropagator>(std::move(plan), blocks);
+}
+
+/// phi_0 .. phi_4 of z B, B one block of a PairStiff.
+std::array<Eigen::Matrix2d, kMaxPhi + 1> phiOfBlock(const Eigen::Matrix2d& block, double z) {
+  std::array<Eigen::Matrix2d, kMaxPhi + 1> result;
+  for (int k = 0; k <= kMaxPhi; ++k) {
+    if (block(0, 1) == 0.0) {
+      result[k] << phi(k, z * block(0, 0)), 0.0, 0.0, phi(k, z * block(1, 1));
+    } else {
+      const std::complex<double> value = phi(k, z * std::complex<double>(block(0, 0), block(0, 1)));
+      result[k] << value.real(), value.imag(), -value.imag(), value.real();
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::unique_ptr<LinearPropagator> makeModalPropagator(const ModalStiff& part, double h, const Tableau& tableau) {
+  return fromPairs(part.omega.size(), h, tableau, [&part, h](Index i, double node) { return ModalPhi(part.omega[i], part.damping[i], node * h); });
+}
+
+std::unique_ptr<LinearPropagator> makePairPropagator(const PairStiff& part, double h, const Tableau& tableau) {
+  return fromPairs(static_cast<Index>(part.blocks.size()), h, tableau,
+                   [&part, h](Index i, double node) { return phiOfBlock(part.blocks[static_cast<std::size_t>(i)], node * h); });
 }
 
 }  // namespace heerk_rotor
