@@ -67,7 +67,7 @@ function(heerk_add_test room library)
   endforeach()
 endfunction()
 
-foreach(room core solve integrate beam aero models config assembly analysis realtime)
+foreach(room core solve integrate beam aero shaft models config assembly analysis realtime)
   heerk_add_test(${room} heerk_rotor_core)
 endforeach()
 heerk_add_test(lcm heerk_rotor_lcm)

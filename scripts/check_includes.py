@@ -12,16 +12,17 @@ ROOMS = {
     "core": set(),
     "beam": set(),
     "aero": set(),
+    "shaft": set(),
     "config": {"core"},  # nearest_name: the hints of both are spelled the same way
     "solve": {"core"},
     "integrate": {"core", "solve"},
-    "models": {"core", "beam", "aero", "config"},
-    "assembly": {"core", "solve", "integrate", "beam", "aero", "models", "config"},
+    "models": {"core", "beam", "aero", "shaft", "config"},
+    "assembly": {"core", "solve", "integrate", "beam", "aero", "shaft", "models", "config"},
     "analysis": {"core", "solve", "integrate", "config", "assembly"},
     "realtime": {"core", "solve", "integrate", "assembly"},  # assembly: RotorReading is what travels through the rings
-    "lcm": {"core", "solve", "integrate", "beam", "aero", "models", "config", "assembly", "realtime"},
-    "ros": {"core", "solve", "integrate", "beam", "aero", "models", "config", "assembly", "analysis", "realtime", "lcm"},
-    "tools": {"core", "solve", "integrate", "beam", "aero", "models", "config", "assembly", "analysis", "realtime", "lcm", "ros"},
+    "lcm": {"core", "solve", "integrate", "beam", "aero", "shaft", "models", "config", "assembly", "realtime"},
+    "ros": {"core", "solve", "integrate", "beam", "aero", "shaft", "models", "config", "assembly", "analysis", "realtime", "lcm"},
+    "tools": {"core", "solve", "integrate", "beam", "aero", "shaft", "models", "config", "assembly", "analysis", "realtime", "lcm", "ros"},
 }
 
 # Headers from outside: pattern -> rooms that may include them. What matches nothing (Eigen, the standard library) is free.

@@ -22,5 +22,8 @@ Made makePrescribedInflow(Section& section, const BuildContext& context);
 Made makePittPetersInflow(Section& section, const BuildContext& context);
 Made makeGovernedDrive(Section& section, const BuildContext& context);
 Made makeRotorCoefficients(Section& section, const BuildContext& context);
+Made makeShaftRotor(Section& section, const BuildContext& context);
+Made makeSqueezeFilmDamper(Section& section, const BuildContext& context);
+Made makeSpeedRamp(Section& section, const BuildContext& context);
 
 }  // namespace heerk_rotor

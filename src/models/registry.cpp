@@ -77,6 +77,9 @@ const std::vector<ModelType>& modelTypes() {
       {"fe_rotor", "elastic rotor: flap, lag and torsion of the blades as finite elements (HEERK paper, Section 4)", makeFeRotor},
       {"blade_airloads", "blade-element airloads of elastic blades: linear or tabulated polars, unsteady lift", makeBladeAirloads},
       {"mount", "what carries the hub: wind-tunnel mount, fuselage on springs, free rigid body", makeMount},
+      {"shaft_rotor", "rotating shaft with discs and bearings as finite elements (Liu & Zhang)", makeShaftRotor},
+      {"squeeze_film_damper", "squeeze film around a journal, short bearing, half or full film (Liu & Zhang, eq. 15)", makeSqueezeFilmDamper},
+      {"speed_ramp", "rotor speed as a function of time: constant or a run-up", makeSpeedRamp},
       {"monolithic_lag_rotor", "lag rotor and elastic mast as one equation (HEERK paper, A.2)", makeMonolithicLagRotor},
   };
   return types;

@@ -1,0 +1,77 @@
+#include <cmath>
+#include <complex>
+#include <sstream>
+#include <stdexcept>
+
+#include <Eigen/LU>
+
+#include "heerk_rotor/shaft/diagonal_form.hpp"
+#include "heerk_rotor/shaft/energy_coordinates.hpp"
+#include "shaft_form.hpp"
+
+namespace heerk_rotor {
+namespace {
+
+using Complex = std::complex<ShaftReal>;
+using ComplexMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic>;
+using ComplexVector = Eigen::Matrix<Complex, Eigen::Dynamic, 1>;
+
+/// Y with eta = Re(Y e^{i omega t}) for the unbalance of constant speed.
+ComplexVector steadyResponse(const EnergyCoordinates& energy, const ShaftMatrices& shaft, const DiagonalForm& modes, double omega) {
+  constexpr ShaftReal kResonance = 1e-9L;  // relative distance that still leaves the response ten digits
+  const ComplexVector load = (energy.from_force * shaft.unbalance.col(0)).cast<Complex>() - Complex(0, 1) * (energy.from_force * shaft.unbalance.col(1)).cast<Complex>();
+  if (shaft.unbalance.isZero(0)) return ComplexVector::Zero(load.size());
+  for (const Complex& eigenvalue : modes.eigenvalues) {
+    if (std::abs(eigenvalue - Complex(0, omega)) > kResonance * omega) continue;
+    std::ostringstream text;
+    text << "an undamped whirl mode of " << std::abs(eigenvalue) << " rad/s stands at the nominal speed of " << omega << " rad/s, where the steady response to the unbalance is infinite; expected damping, or coordinates: physical";
+    throw std::runtime_error(text.str());
+  }
+  ComplexMatrix A = -energy.H.cast<Complex>();
+  A.diagonal().array() += Complex(0, omega);
+  const ShaftReal square = static_cast<ShaftReal>(omega) * omega;
+  return A.partialPivLu().solve(ComplexVector(square * load));
+}
+
+}  // namespace
+
+ShaftForm modalShaftForm(const ShaftMatrices& shaft, double omega) {
+  const EnergyCoordinates energy = energyCoordinates(shaft, omega);
+  const DiagonalForm modes = diagonalForm(energy.H);
+  const ComplexVector steady = steadyResponse(energy, shaft, modes, omega);
+  const Eigen::Index m = shaft.size(), n = 2 * m;  // pairs, coordinates without the phasor
+
+  // eta = T z + Re(steady) cos - Im(steady) sin, columns in the order of the states.
+  ShaftMatrix eta(n, n + 2);
+  eta << modes.T.leftCols(m), steady.real(), modes.T.rightCols(m), -steady.imag();
+
+  ShaftForm form;
+  form.phasor_cos = m;
+  form.phasor_sin = n + 1;
+  form.observe = (energy.to_physical * eta).cast<double>();
+  form.energy = eta.cast<double>();
+  const Matrix force = (modes.inverse * energy.from_force).cast<double>();
+  form.force.setZero(n + 2, m);
+  form.force.topRows(m) = force.topRows(m);
+  form.force.middleRows(m + 1, m) = force.bottomRows(m);
+  const Vector start = -(modes.inverse * steady.real()).cast<double>();
+  form.start.setZero(n + 2);
+  form.start.head(m) = start.head(m);
+  form.start.segment(m + 1, m) = start.tail(m);
+  form.start[form.phasor_cos] = 1.0;
+
+  PairStiff S;
+  S.blocks.assign(modes.blocks.begin(), modes.blocks.end());
+  S.blocks.push_back((Eigen::Matrix2d() << 0.0, -omega, omega, 0.0).finished());
+  form.S = std::move(S);
+
+  for (const char* part : {"re", "im"}) {
+    for (Eigen::Index i = 1; i <= m; ++i)
+      form.states.push_back({"mode_" + std::to_string(i) + "_" + part, "sqrt(J)", "whirl mode at nominal speed, counted from the steady unbalance response"});
+    const bool real = form.states.size() == static_cast<std::size_t>(m);
+    form.states.push_back({real ? "nominal_cos" : "nominal_sin", "-", real ? "cos of Omega t" : "sin of Omega t"});
+  }
+  return form;
+}
+
+}  // namespace heerk_rotor
