@@ -113,7 +113,7 @@ void parts(benchmark::State& state) {
   }
   const auto ordinary = buildSimulation(configuration({}));
   const StepOptions options = ordinary->options();
-  const Tableau& method = *options.method;
+  const Tableau& method = tableau(options.method);
   std::vector<std::unique_ptr<LinearPropagator>> propagators;
   for (const CoupledSystem::Subsystem& s : system.subsystems()) propagators.push_back(s.x_size > 0 ? makePropagator(s.stiff, options.step, method) : nullptr);
   std::vector<Index> begins;

@@ -24,9 +24,9 @@ EvaluationCounts countEvaluations(Simulation& simulation, const Vector& command,
   const auto per_step = [steps](std::uint64_t now, std::uint64_t then) { return static_cast<double>(now - then) / static_cast<double>(steps); };
 
   EvaluationCounts counts;
-  counts.method = simulation.options().method->name;
+  counts.method = simulation.options().method;
   counts.steps = steps;
-  counts.stages = static_cast<int>(simulation.options().method->stages());
+  counts.stages = simulation.method().evaluations();
   counts.newton_iterations = per_step(after.newton_iterations, before.newton_iterations);
   counts.jacobians = static_cast<double>(after.jacobians - before.jacobians);
   const CoupledSystem& system = simulation.system();

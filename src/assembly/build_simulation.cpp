@@ -1,5 +1,6 @@
 #include "heerk_rotor/assembly/build_simulation.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <map>
@@ -9,7 +10,7 @@
 #include "heerk_rotor/config/yaml_value.hpp"
 #include "heerk_rotor/core/coupling_graph.hpp"
 #include "heerk_rotor/core/nearest_name.hpp"
-#include "heerk_rotor/integrate/tableau.hpp"
+#include "heerk_rotor/integrate/step_method.hpp"
 #include "heerk_rotor/models/registry.hpp"
 
 namespace heerk_rotor {
@@ -29,14 +30,11 @@ std::string list(const std::vector<std::string>& names) {
   return text;
 }
 
-/// The `simulation:` section with the one check that needs the table of methods.
+/// The `simulation:` section with the one check that needs the list of methods.
 SimulationSettings readSettings(const Configuration& configuration, Problems& problems) {
   const SimulationSettings settings = readSimulationSettings(configuration, problems);
-  std::vector<std::string> names;
-  for (const Tableau& method : tableaus()) {
-    if (method.name == settings.integrator) return settings;
-    names.push_back(method.name);
-  }
+  const std::vector<std::string> names = stepMethodNames();
+  if (std::find(names.begin(), names.end(), settings.integrator) != names.end()) return settings;
   const std::string key = "simulation.integrator";
   const std::string found = asWritten(findValue(configuration.root(), key));
   // What is no word at all has been reported already, and the default is in `settings`.
@@ -220,7 +218,7 @@ std::unique_ptr<Simulation> buildSimulation(const Configuration& configuration) 
 
   StepOptions options;
   options.step = settings.step;
-  options.method = &tableau(settings.integrator);
+  options.method = settings.integrator;
   options.paper_tolerance = settings.paper_tolerance;
   options.revolution = settings.revolution();
   options.solver.tolerance = settings.newton_tolerance;

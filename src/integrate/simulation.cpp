@@ -11,7 +11,7 @@ namespace {
 /// eps = 0.001 min(1, (h / h_ref)^p) with h_ref = T_rev / 100 (HEERK paper, Section 4.2).
 double paperTolerance(const StepOptions& options) {
   const double ratio = options.step / (options.revolution / 100.0);
-  return 1e-3 * std::min(1.0, std::pow(ratio, options.method->order));
+  return 1e-3 * std::min(1.0, std::pow(ratio, orderOfStepMethod(options.method)));
 }
 
 Index firstNonFinite(const double* values, Index size) noexcept {
@@ -23,7 +23,6 @@ Index firstNonFinite(const double* values, Index size) noexcept {
 }  // namespace
 
 Simulation::Simulation(CoupledSystem system, const StepOptions& options) : system_(std::move(system)), options_(options) {
-  if (options_.method == nullptr) throw std::invalid_argument("Simulation: no method given");
   if (!(options_.step > 0.0) || !std::isfinite(options_.step)) throw std::invalid_argument("Simulation: step " + std::to_string(options_.step) + " s, expected a positive number");
   if (options_.paper_tolerance) {
     if (!(options_.revolution > 0.0)) throw std::invalid_argument("Simulation: the paper's tolerance rule needs the time of one revolution");
@@ -31,11 +30,9 @@ Simulation::Simulation(CoupledSystem system, const StepOptions& options) : syste
   }
   x0_ = x_ = system_.initialState();
   if (const Index i = firstNonFinite(x_.data(), x_.size()); i >= 0) throw std::invalid_argument("Simulation: the initial state " + std::to_string(i) + " is not finite");
-  stage_ = next_ = Vector::Zero(x_.size());
+  next_ = Vector::Zero(x_.size());
   w_ = system_.defaultCommand();
-  remainders_.assign(static_cast<std::size_t>(options_.method->stages() * x_.size()), 0.0);
-  for (const CoupledSystem::Subsystem& subsystem : system_.subsystems())
-    propagators_.push_back(subsystem.x_size > 0 ? makePropagator(subsystem.stiff, options_.step, *options_.method) : nullptr);
+  method_ = makeStepMethod(options_.method, system_, options_.step, options_.solver.tolerance);
   solver_ = std::make_unique<AlgebraicSolver>(system_, options_.solver, t0_, x_, w_);
   initial_cache_ = solver_->cache();
   at_last_instant_ = solver_->counters();
@@ -76,12 +73,12 @@ bool Simulation::outputsAreFinite() noexcept {
 
 void Simulation::removeObserver(Observer& observer) { observers_.erase(std::remove(observers_.begin(), observers_.end(), &observer), observers_.end()); }
 
-void Simulation::combine(int row, Vector& result) const noexcept {
-  for (std::size_t k = 0; k < propagators_.size(); ++k) {
-    if (!propagators_[k]) continue;
-    const Index begin = system_.subsystems()[k].x_begin;
-    propagators_[k]->combine(row, x_.data() + begin, remainders_.data() + begin, x_.size(), result.data() + begin);
-  }
+void Simulation::atStart(bool complete, double* f) noexcept { system_.evalRemainder(modelTime(), x_, solver_->u(), complete, f); }
+
+bool Simulation::at(double t, const Vector& x, bool complete, double* f) noexcept {
+  if (!stateIsFinite(x, t) || !solveStage(t, x, w_)) return false;
+  system_.evalRemainder(t, x, solver_->u(), complete, f);
+  return true;
 }
 
 StepStatus Simulation::observe(const Vector& command) noexcept {
@@ -111,18 +108,16 @@ StepStatus Simulation::step(const Vector& command) noexcept {
   if (observe(command) != StepStatus::kOk) return status_;
 
   at_last_instant_ = solver_->counters();
-  const Tableau& method = *options_.method;
-  const bool complete = !method.exponential;
-  const double t = modelTime(), h = options_.step;
-  system_.evalRemainder(t, x_, solver_->u(), complete, remainders_.data());
-  for (int i = 1; i < method.stages(); ++i) {
-    combine(i, stage_);
-    const double stage_time = t + method.c[static_cast<std::size_t>(i)] * h;
-    if (!stateIsFinite(stage_, stage_time) || !solveStage(stage_time, stage_, w_)) return status_;
-    system_.evalRemainder(stage_time, stage_, solver_->u(), complete, remainders_.data() + i * x_.size());
+  const double t = modelTime();
+  switch (method_->advance(*this, t, x_, next_)) {
+    case StepMethod::Outcome::kDone: break;
+    case StepMethod::Outcome::kStageFailed: return status_;
+    case StepMethod::Outcome::kNotConverged:
+      method_failed_ = true;
+      failure_time_ = t;
+      return status_ = StepStatus::kSolverStalled;
   }
-  combine(method.stages(), next_);
-  if (!stateIsFinite(next_, t + h)) return status_;
+  if (!stateIsFinite(next_, t + options_.step)) return status_;
   x_.swap(next_);
   ++step_;
   solved_ = false;
@@ -133,18 +128,20 @@ void Simulation::reset() {
   x_ = x0_;
   w_ = system_.defaultCommand();
   solver_->restoreCache(initial_cache_);
+  method_->restoreMemory({});
   t0_ = 0.0;
   step0_ = static_cast<std::int64_t>(step_);
   ++epoch_;
   at_last_instant_ = solver_->counters();
-  solved_ = false;
+  solved_ = method_failed_ = false;
   status_ = StepStatus::kOk;
 }
 
 void Simulation::setState(const Vector& x) {
   if (x.size() != x_.size()) throw std::invalid_argument("Simulation::setState: " + std::to_string(x.size()) + " values, expected " + std::to_string(x_.size()));
   x_ = x;
-  solved_ = false;
+  method_->restoreMemory({});
+  solved_ = method_failed_ = false;
   status_ = StepStatus::kOk;
 }
 
@@ -154,6 +151,11 @@ StepFailure Simulation::failure() const {
   failure.step = step_;
   failure.t = failure_time_;
   if (status_ == StepStatus::kOk) return failure;
+  if (method_failed_) {
+    failure.where = method_->name();
+    failure.cause = "its equations for the next state did not converge: the step " + std::to_string(options_.step) + " s is too large, or they have no real solution";
+    return failure;
+  }
   const Signal::Kind kind = failure_in_output_ ? Signal::Kind::kOutput : Signal::Kind::kState;
   for (const Signal& signal : system_.signals())
     if (signal.kind == kind && signal.index == failure_entry_) failure.where = signal.name;
@@ -162,8 +164,8 @@ StepFailure Simulation::failure() const {
       if (failure_entry_ >= s.x_begin && failure_entry_ < s.x_begin + s.x_size)
         failure.where = s.name + "." + s.model->states()[static_cast<std::size_t>(failure_entry_ - s.x_begin)].name;
   if (status_ == StepStatus::kNonFinite) {
-    failure.cause = "the solution grew without bound: the step " + std::to_string(options_.step) + " s is probably too large for " + options_.method->name +
-                    (options_.method->exponential ? " (stiffness that is not in S)" : " (explicit methods need a small step; try HEERK4)") + ", or the system is unstable";
+    failure.cause = "the solution grew without bound: the step " + std::to_string(options_.step) + " s is probably too large for " + method_->name() +
+                    (method_->exponential() ? " (stiffness that is not in S)" : " (explicit methods need a small step; try HEERK4)") + ", or the system is unstable";
   } else if (failure_report_.status == SolveStatus::kSingular) {
     failure.cause = "I - dg/dy became singular: the coupled system is not index 1 in this state";
   } else {
@@ -185,7 +187,10 @@ std::uint64_t Simulation::stateHash() const {
 }
 
 Simulation::Checkpoint Simulation::checkpoint() const {
-  return {step_, step0_, epoch_, t0_, options_.step, x_, w_, solver_->cache()};
+  std::vector<double> cache = solver_->cache();
+  const std::vector<double> memory = method_->memory();
+  cache.insert(cache.end(), memory.begin(), memory.end());
+  return {step_, step0_, epoch_, t0_, options_.step, x_, w_, std::move(cache)};
 }
 
 void Simulation::restore(const Checkpoint& checkpoint, bool new_epoch) {
@@ -196,7 +201,10 @@ void Simulation::restore(const Checkpoint& checkpoint, bool new_epoch) {
   expect("number of commands", static_cast<double>(checkpoint.w.size()), static_cast<double>(w_.size()));
   expect("step size", checkpoint.h, options_.step);
   if (firstNonFinite(checkpoint.x.data(), checkpoint.x.size()) >= 0) throw std::invalid_argument("snapshot: a state is not finite");
-  solver_->restoreCache(checkpoint.solver_cache);
+  const std::size_t of_solver = std::min(checkpoint.solver_cache.size(), initial_cache_.size());
+  const auto split = checkpoint.solver_cache.begin() + static_cast<std::ptrdiff_t>(of_solver);
+  solver_->restoreCache({checkpoint.solver_cache.begin(), split});
+  method_->restoreMemory({split, checkpoint.solver_cache.end()});
   x_ = checkpoint.x;
   w_ = checkpoint.w;
   t0_ = checkpoint.t0;
@@ -209,7 +217,7 @@ void Simulation::restore(const Checkpoint& checkpoint, bool new_epoch) {
     epoch_ = checkpoint.epoch;
   }
   at_last_instant_ = solver_->counters();
-  solved_ = false;
+  solved_ = method_failed_ = false;
   status_ = StepStatus::kOk;
 }
 

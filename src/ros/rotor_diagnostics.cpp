@@ -77,7 +77,7 @@ void RotorDiagnostics::reportSimulation(Status& status) {
   status.add("epoch", now_.epoch);
   status.add("simulation time [s]", now_.time);
   status.add("step size [s]", simulation_.stepSize());
-  status.add("integrator", simulation_.options().method->name);
+  status.add("integrator", simulation_.options().method);
 }
 
 void RotorDiagnostics::reportRealTime(Status& status) {

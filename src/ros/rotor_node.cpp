@@ -115,7 +115,7 @@ void RotorNode::start() {
   diagnostics_.start(scheduling);
   spinner_.start();
   trim_service_.start();
-  ROS_INFO_STREAM("running " << configuration_.file() << ": " << simulation_->options().method->name << ", step " << simulation_->stepSize() << " s, real-time factor "
+  ROS_INFO_STREAM("running " << configuration_.file() << ": " << simulation_->options().method << ", step " << simulation_->stepSize() << " s, real-time factor "
                              << parameters_.real_time_factor << "; step thread: " << scheduling);
 }
 

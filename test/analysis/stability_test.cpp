@@ -36,7 +36,7 @@ std::unique_ptr<Simulation> oscillators(const std::string& method) {
   graph.add("damped", std::make_unique<Oscillator>(300.0, 2.0 * 0.05 * 300.0));
   StepOptions options;
   options.step = kStep;
-  options.method = &tableau(method);
+  options.method = method;
   return std::make_unique<Simulation>(std::move(graph).build(), options);
 }
 

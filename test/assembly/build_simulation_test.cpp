@@ -45,7 +45,7 @@ TEST(BuildSimulation, handsTheSettingsToTheSimulation) {
   const auto simulation = buildSimulation(
       Configuration::load(kLagRotor, {"simulation.step=2e-3", "simulation.integrator=HEERK2", "simulation.newton_tolerance=1e-7", "simulation.rotor_speed=5"}));
   EXPECT_EQ(simulation->stepSize(), 2e-3);
-  EXPECT_EQ(simulation->options().method->name, "HEERK2");
+  EXPECT_EQ(simulation->options().method, "HEERK2");
   EXPECT_EQ(simulation->options().solver.tolerance, 1e-7);
   EXPECT_DOUBLE_EQ(simulation->options().revolution, 2.0 * M_PI / 5.0);
 }

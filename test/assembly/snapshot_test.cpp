@@ -49,7 +49,7 @@ std::unique_ptr<Simulation> pairOfOscillators() {
   graph.connect("b.acceleration", "a.other");
   StepOptions options;
   options.step = 0.01;
-  options.method = &tableau("HEERK4");
+  options.method = "HEERK4";
   return std::make_unique<Simulation>(std::move(graph).build(), options);
 }
 

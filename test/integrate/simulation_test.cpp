@@ -31,7 +31,7 @@ CoupledSystem pendulum() {
 StepOptions options(const std::string& method = "HEERK4", double h = 0.01) {
   StepOptions o;
   o.step = h;
-  o.method = &tableau(method);
+  o.method = method;
   o.solver.tolerance = 1e-12;
   return o;
 }
@@ -160,15 +160,15 @@ TEST(Simulation, everyMethodIntegratesThePendulumAtItsOrder) {
   // Reference: the same system at a step 40 times smaller with a method of order 4.
   Simulation reference(pendulum(), options("HERK4", 0.0005));
   for (int k = 0; k < 4000; ++k) reference.step(command(0.2));
-  for (const Tableau& method : tableaus()) {
+  for (const std::string& method : stepMethodNames()) {
     double error[2];
     for (int i = 0; i < 2; ++i) {
       const double h = i == 0 ? 0.04 : 0.02;
-      Simulation simulation(pendulum(), options(method.name, h));
+      Simulation simulation(pendulum(), options(method, h));
       for (int k = 0; k < std::lround(2.0 / h); ++k) simulation.step(command(0.2));
       error[i] = (simulation.state() - reference.state()).norm();
     }
-    EXPECT_NEAR(std::log2(error[0] / error[1]), method.order, 0.15) << method.name;  // at these steps the next term is below 10 %
+    EXPECT_NEAR(std::log2(error[0] / error[1]), orderOfStepMethod(method), 0.15) << method;  // at these steps the next term is below 10 %
   }
 }
 

@@ -51,7 +51,7 @@ struct LoadedRotor {
   std::unique_ptr<Simulation> simulation(double h) const {
     StepOptions options;
     options.step = h;
-    options.method = &tableau("HEERK4");
+    options.method = "HEERK4";
     options.solver.tolerance = 1e-13;
     return std::make_unique<Simulation>(system(), options);
   }

@@ -41,7 +41,7 @@ class HubMoment : public SubsystemModel {
 inline std::unique_ptr<Simulation> simulationOf(CouplingGraph graph, double h) {
   StepOptions options;
   options.step = h;
-  options.method = &tableau("HEERK4");
+  options.method = "HEERK4";
   options.solver.tolerance = 1e-13;
   return std::make_unique<Simulation>(std::move(graph).build(), options);
 }

@@ -42,7 +42,7 @@ std::unique_ptr<Simulation> rig(const MountParameters& p, const Vector& x, bool 
   }
   StepOptions options;
   options.step = 1e-3;
-  options.method = &tableau("HEERK4");
+  options.method = "HEERK4";
   options.solver.tolerance = 1e-13;
   auto simulation = std::make_unique<Simulation>(std::move(graph).build(), options);
   simulation->setState(x);

@@ -31,7 +31,7 @@ std::unique_ptr<Simulation> rig(double h, const Swashplate::Parameters& p = {}) 
   graph.connect("hub.hub_motion", "swashplate.hub_motion");
   StepOptions options;
   options.step = h;
-  options.method = &tableau("HEERK4");
+  options.method = "HEERK4";
   return std::make_unique<Simulation>(std::move(graph).build(), options);
 }
 
@@ -162,7 +162,7 @@ std::unique_ptr<Simulation> unsteadyRig(const Swashplate::Parameters& p, double 
     for (const char* port : {"flap", "flap_rate", "flap_acceleration"}) graph.connect(std::string("rotor.") + port, std::string("swashplate.") + port);
   StepOptions options;
   options.step = h;
-  options.method = &tableau("HEERK4");
+  options.method = "HEERK4";
   return std::make_unique<Simulation>(std::move(graph).build(), options);
 }
 

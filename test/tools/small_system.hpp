@@ -53,7 +53,7 @@ inline CoupledSystem smallSystem(bool with_azimuth = false) {
 inline std::unique_ptr<Simulation> smallSimulation(double h = 0.01, bool with_azimuth = false) {
   StepOptions options;
   options.step = h;
-  options.method = &tableau("HEERK4");
+  options.method = "HEERK4";
   return std::make_unique<Simulation>(smallSystem(with_azimuth), options);
 }
 

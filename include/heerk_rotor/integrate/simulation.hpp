@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "heerk_rotor/core/coupled_system.hpp"
-#include "heerk_rotor/integrate/linear_propagator.hpp"
+#include "heerk_rotor/integrate/step_method.hpp"
 #include "heerk_rotor/solve/algebraic_solver.hpp"
 
 namespace heerk_rotor {
@@ -44,19 +44,18 @@ struct StepFailure {
 
 struct StepOptions {
   double step = 1e-3;                // h [s]
-  const Tableau* method = nullptr;   // see tableau()
+  std::string method = "HEERK4";     // see stepMethodNames()
   bool paper_tolerance = false;      // eps = 0.001 min(1, (h/h_ref)^p), h_ref = T_rev / 100 (paper, Section 4.2)
   double revolution = 0.0;           // T_rev [s]; needed with paper_tolerance
-  SolverOptions solver;
+  SolverOptions solver;              // its tolerance also ends the iteration of implicit methods
 };
 
-/// Advances the coupled system by fixed steps of a half-explicit exponential Runge-Kutta method (HEERK paper, eq. 6),
-/// t = t0 + step * h. The first stage of a step is at t_n: the command is latched, the outputs are solved, observers
-/// see the instant, then the other stages run.
-class Simulation {
+/// Advances the coupled system by fixed steps of an integration method, t = t0 + step * h. A step begins at t_n: the command is latched,
+/// the outputs are solved, observers see the instant, then the method goes on from there.
+class Simulation : private StageEvaluator {
  public:
   Simulation(CoupledSystem system, const StepOptions& options);
-  ~Simulation();
+  ~Simulation() override;
 
   void addObserver(Observer& observer) { observers_.push_back(&observer); }
   void removeObserver(Observer& observer);
@@ -72,6 +71,7 @@ class Simulation {
 
   const CoupledSystem& system() const { return system_; }
   const AlgebraicSolver& solver() const { return *solver_; }
+  const StepMethod& method() const { return *method_; }
   const StepOptions& options() const { return options_; }
   std::uint64_t stepCount() const { return step_; }
   std::uint32_t epoch() const { return epoch_; }
@@ -98,7 +98,7 @@ class Simulation {
     std::uint32_t epoch = 0;
     double t0 = 0.0, h = 0.0;
     Vector x, w;
-    std::vector<double> solver_cache;
+    std::vector<double> solver_cache;  // of the algebraic solver, then what the method keeps
   };
   Checkpoint checkpoint() const;
   /// Throws std::invalid_argument when the sizes or the step differ. With new_epoch the epoch increments instead of
@@ -109,26 +109,27 @@ class Simulation {
   bool solveStage(double t, const Vector& x, const Vector& w) noexcept;
   bool stateIsFinite(const Vector& x, double t) noexcept;
   bool outputsAreFinite() noexcept;
-  void combine(int row, Vector& result) const noexcept;
+  void atStart(bool complete, double* f) noexcept override;
+  bool at(double t, const Vector& x, bool complete, double* f) noexcept override;
 
   CoupledSystem system_;
   StepOptions options_;
   std::unique_ptr<AlgebraicSolver> solver_;
-  std::vector<std::unique_ptr<LinearPropagator>> propagators_;  // one per subsystem with states
+  std::unique_ptr<StepMethod> method_;
   std::vector<Observer*> observers_;
   std::uint64_t step_ = 0;
   std::int64_t step0_ = 0;
   std::uint32_t epoch_ = 0;
   double t0_ = 0.0;
-  Vector x0_, x_, stage_, next_, w_;
+  Vector x0_, x_, next_, w_;
   std::vector<double> initial_cache_;
-  std::vector<double> remainders_;                               // (stages x state size), one row per stage
   SolverCounters at_last_instant_;                               // what the solver had spent when the last step left its first stage
   bool solved_ = false;                                          // outputs at t_n with w_ are up to date
   StepStatus status_ = StepStatus::kOk;
   double failure_time_ = 0.0;
   Index failure_entry_ = -1;
   bool failure_in_output_ = false;
+  bool method_failed_ = false;                                   // the method's own equations had no solution
   SolveReport failure_report_;
 };
 
