@@ -91,8 +91,8 @@ def figure_5(study, folder, checks):
 Left the paper's Figure 5 a, right its Figure 5 b. Least-squares orders between 100 and 10⁴ steps (errors above 10⁻¹²): {found}.
 
 The kinks of bilinear tables limit the order of HEERK3 and HEERK4; monotone cubic tables (continuous slope) behave like smooth airloads here, where
-nothing stalls. The paper's HEERK4 flattens at 10³ steps because of its matrix exponentials; here modes are decoupled before the functions of S are taken (errors <= 10⁻¹³: test/integrate/linear_propagator_test.cpp,
-phi_functions_test.cpp), and the order goes on until round-off. The bumps (402 steps) stand where h omega is a multiple of 2 pi for a mode (17866 rad/s):
+nothing stalls. The paper's HEERK4 flattens at 10³ steps because of its matrix exponentials; here modes are decoupled before the functions of S are
+taken (errors <= 10⁻¹³: test/integrate/linear_propagator_test.cpp, phi_functions_test.cpp), and the order goes on until round-off. The bumps (402 steps) stand where h omega is a multiple of 2 pi for a mode (17866 rad/s):
 e^(ih omega) = 1, and what is outside S acts in resonance; the paper saw a bump near 100 steps.
 
 """ + table(header, rows) + f"""
