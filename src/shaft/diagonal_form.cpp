@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -74,8 +75,9 @@ DiagonalForm diagonalForm(const ShaftMatrix& H) {
     block << static_cast<double>(B(i, i)), static_cast<double>(B(i, m + i)), static_cast<double>(B(m + i, i)), static_cast<double>(B(m + i, m + i));
     form.blocks.push_back(block);
   }
-  form.inverse = form.T.fullPivLu().inverse();
-  form.condition = static_cast<double>(form.T.norm() * form.inverse.norm()) / static_cast<double>(n);
+  const Eigen::FullPivLU<ShaftMatrix> factor(form.T);
+  form.inverse = factor.inverse();  // zeros where there is none
+  form.condition = factor.isInvertible() ? static_cast<double>(form.T.norm() * form.inverse.norm()) / static_cast<double>(n) : std::numeric_limits<double>::infinity();
   if (!(form.condition <= kLargestCondition)) fail("the condition of the eigenvectors", form.condition, kLargestCondition);
   const double residual = static_cast<double>((form.T * B - H * form.T).norm() / (H.norm() * form.T.norm()));
   if (!(residual <= kResidual)) fail("the residual of the eigenvectors", residual, kResidual);

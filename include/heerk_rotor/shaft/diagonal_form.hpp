@@ -11,7 +11,7 @@ namespace heerk_rotor {
 /// H = T block-diagonal(blocks) T^-1: a real matrix of even size brought to pairs of coordinates. Block i couples coordinates i and
 /// m + i: [[a, b], [-b, a]] for the eigenvalues a +- i b, diag(a_1, a_2) for two real ones. Ascending in |eigenvalue|.
 struct DiagonalForm {
-  std::vector<std::complex<ShaftReal>> eigenvalues;  // (m) a + i b, b > 0; two real ones stand as a_1, a_2 in `blocks` only
+  std::vector<std::complex<ShaftReal>> eigenvalues;  // (m) a + i b, b > 0; of two real ones a_1
   std::vector<Eigen::Matrix2d, Eigen::aligned_allocator<Eigen::Matrix2d>> blocks;  // (m) [1/s]
   ShaftMatrix T;        // (2m x 2m), complex pairs of columns have norm sqrt(2): orthogonal when H is skew
   ShaftMatrix inverse;  // T^-1
