@@ -96,6 +96,28 @@ TEST(Allocation, stepsOfTheElasticRotorNeverTouchTheHeap) {
   expectNoHeapCalls("bo105.yaml", {}, steps != nullptr ? std::atol(steps) : 100000);
 }
 
+TEST(Allocation, stepsOfTheDualDiscRotorNeverTouchTheHeap) {
+  if (!heapIsCounted()) GTEST_SKIP() << "the heap belongs to a sanitizer";
+  for (const char* coordinates : {"modal", "physical"}) {
+    auto simulation = buildSimulation(shipped("dual_disc.yaml", {std::string("subsystems.shaft.coordinates=") + coordinates, "subsystems.shaft.linearised_film_damping=1000.0",
+                                                                 "subsystems.drive={type: speed_ramp, initial_speed_rpm: 4800, acceleration_rpm_per_s: 1.0e+4, start: 0.01}"}));
+    Watcher watcher;
+    simulation->addObserver(watcher);
+    ASSERT_TRUE(advance(*simulation, 10));
+    const Vector w = simulation->system().defaultCommand();
+    bool good = true;
+    std::uint64_t heap_calls = 0;
+    {
+      HeapCalls heap;
+      good = advance(*simulation, 5000, w);
+      heap_calls = heap.count();
+    }
+    EXPECT_TRUE(good);
+    EXPECT_EQ(heap_calls, 0u);
+    EXPECT_TRUE(std::isfinite(watcher.sum));
+  }
+}
+
 TEST(Allocation, noMethodAndNoFormulationTouchesTheHeap) {
   for (const char* formulation : {"absolute_lag", "printed"})
     for (const char* method : {"HERK4", "HEERK2", "HEERK3", "HEERK4", "ETDRK4"})

@@ -18,6 +18,9 @@ std::string minimalParameters(const std::string& type) {
                 "products_of_inertia: [0.1, 0.3, -0.2], wind: [3.0, 2.0, 1.0], damping: [3.0, 2.0], gear_position: [0.3, 0.2, -1.2]"},
       {"blade_airloads", ", unsteady: beddoes"},
       {"elastic_mast", ", damping: 50.0"},
+      {"shaft_rotor", ", segments: [0.2, 0.3, 0.2], discs: {nodes: [1, 2], mass: [5.0, 4.0], diametral_inertia: 0.02, polar_inertia: 0.03, unbalance: 1.0e-4, unbalance_angle_deg: [0.0, 70.0]}, "
+                      "bearings: {nodes: [0, 3], stiffness_x: 1.0e+7, stiffness_y: 2.0e+7, damping_x: 100.0, damping_y: 50.0}, journals: [3, 2], linearised_film_damping: 200.0"},
+      {"squeeze_film_damper", ", clearance: 0.5, length: 0.01, radius: 0.05, viscosity: 0.02"},
       {"lag_rotor", ", fuselage_damping_x: 900.0, lag_damper: 70.0"}};
   const auto found = parameters.find(type);
   return found == parameters.end() ? "" : found->second;
@@ -31,6 +34,9 @@ std::vector<std::string> furtherParameters(const std::string& type) {
       {"mount", {", mode: rigid", ", mode: rigid, rotation: cw", ", mode: spring2", ", mode: spring2, rotation: cw", ", mode: spring6", ", mode: spring6, rotation: cw",
                  ", mode: free, rotation: cw"}},
       {"blade_airloads", {", virtual_mass: true", ", kinematics: small_angle"}},
+      {"shaft_rotor", {", coordinates: physical", ", shear: true, mass_damping: 3.0"}},
+      {"squeeze_film_damper", {", film: full"}},
+      {"speed_ramp", {", initial_speed_rpm: 100.0, acceleration_rpm_per_s: 300.0, start: 0.1"}},
       {"governed_drive", {", governor: false, engine_torque: 300.0"}},
       {"pitt_peters_inflow", {", induced_power_factor: 1.15, corrected_mass: true"}},
       {"swashplate", {", blades: 5, phase_deg: 20.0, delta3_deg: -15.0"}}};

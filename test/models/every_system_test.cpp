@@ -24,6 +24,11 @@ std::vector<System> systems() {
   const auto elastic = [&](const Overrides& fixed) {
     return file("bo105.yaml", Overrides{"subsystems.rotor.modes=6", "subsystems.airloads.polar=linear", "subsystems.rotor.sections=5"} + fixed);
   };
+  // The dual-disc rotor on fewer elements and softer bearings, whose largest eigenvalue, 1.4e5 1/s, HERK4 can resolve.
+  const auto shaft = [&](const Overrides& more) {
+    return file("dual_disc.yaml", Overrides{"subsystems.shaft.segments=[0.14, 0.14, 0.14, 0.14]", "subsystems.shaft.discs.nodes=[1, 3]", "subsystems.shaft.bearings.nodes=[0, 4]",
+                                            "subsystems.shaft.bearings.stiffness_x=[3.0e+7, 5.7e+6]", "subsystems.shaft.bearings.stiffness_y=[2.0e+7, 5.7e+6]", "subsystems.shaft.journals=[4]"} + more);
+  };
   const std::string disturbed = "subsystems.rotor.initial={lag_1: -0.03, lag_2: -0.04, lag_3: -0.03, lag_4: -0.04}";
   return {{"lag_rotor", file("lag_rotor.yaml", {}), 1e-3},
           {"lag_rotor_printed", file("lag_rotor.yaml", {"simulation.formulation=printed"}), 1e-3},
@@ -38,6 +43,10 @@ std::vector<System> systems() {
           {"elastic_rotor_drees", elastic({"subsystems.inflow.type=drees_inflow", "subsystems.mast.type=rigid_mast", "subsystems.fuselage.mode=free"}), 1e-4},
           {"elastic_rotor_uniform", elastic({"subsystems.inflow.type=uniform_inflow", "subsystems.fuselage.mode=spring2", "subsystems.fuselage.mass=1972.4"}), 1e-4},
           {"elastic_rotor_prescribed", elastic({"subsystems.inflow={type: prescribed_inflow, mean: 0.04, sine: -0.01, cosine: 0.02}", "subsystems.fuselage.mode=rigid"}), 1e-4},
+          {"dual_disc", shaft({}), 2e-6},
+          {"dual_disc_physical", shaft({"subsystems.shaft.coordinates=physical"}), 2e-6},
+          {"dual_disc_run_up", shaft({"subsystems.drive={type: speed_ramp, initial_speed_rpm: 3000, final_speed_rpm: 6000, acceleration_rpm_per_s: 1.0e+4}",
+                                      "subsystems.shaft.linearised_film_damping=1000.0"}), 2e-6},
           {"monolithic", [](const Overrides& more) {
              return Configuration::parse("simulation: {rotor_speed: 6.63, step: 1.0e-3}\nsubsystems:\n"
                                          "  rotor: {type: monolithic_lag_rotor, mast_stiffness: 3.0e+4, initial: {lag_1: 0.01}}\n", "monolithic", more);
