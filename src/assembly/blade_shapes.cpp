@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "heerk_rotor/assembly/non_finite.hpp"
 #include "heerk_rotor/models/rotor_sections.hpp"
 
 namespace heerk_rotor {
@@ -21,6 +22,16 @@ const CoupledSystem::Output* findOutput(const CoupledSystem& system, const std::
 }
 
 }  // namespace
+
+bool isFinite(const BladeShapes& shapes) noexcept {
+  double sum = 0.0;
+  for (int k = 0; k < shapes.blades; ++k)
+    for (int i = 0; i < shapes.sections; ++i) {
+      const BladeShapes::Section& s = shapes.section[static_cast<std::size_t>(k)][static_cast<std::size_t>(i)];
+      sum += nonFinite(s.position) + nonFinite(s.chordwise) + 0.0 * s.load;
+    }
+  return sum == 0.0;
+}
 
 BladeShapeView::BladeShapeView(const CoupledSystem& system, int blades) : blades_(blades) {
   const CoupledSystem::Output* pitch = findOutput(system, "section_pitch");

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+
+#include "heerk_rotor/assembly/non_finite.hpp"
 
 namespace heerk_rotor {
 namespace {
 
 constexpr double kTwoPi = 6.283185307179586476925;
-
-std::string localName(const std::string& name) { return name.substr(name.rfind('.') + 1); }
 
 void fail(const std::string& what) { throw std::invalid_argument("rotor view: " + what); }
 
@@ -26,27 +27,22 @@ void multiblade(const RotorReading::PerBlade& values, int blades, double azimuth
 
 }  // namespace
 
-RotorView::RotorView(const CoupledSystem& system) {
-  // An output port by its local name; size 0 accepts any.
-  const auto find = [&system](const std::string& quantity, Index size) {
-    Range range;
-    std::string owner;
-    for (const CoupledSystem::Output& output : system.outputs()) {
-      if (localName(output.name) != quantity) continue;
-      if (range.begin >= 0) fail("both " + owner + " and " + output.name + " offer " + quantity + "; one subsystem must");
-      if (size > 0 && output.size != size)
-        fail(output.name + " has " + std::to_string(output.size) + " entries, expected " + std::to_string(size));
-      range.begin = output.begin;
-      range.size = output.size;
-      owner = output.name;
-    }
-    return range;
-  };
+bool isFinite(const RotorReading& r) noexcept {
+  double sum = 0.0;
+  for (const RotorReading::PerBlade* values : {&r.lag, &r.lag_rate, &r.flap, &r.flap_rate, &r.pitch, &r.pitch_rate, &r.tip_twist}) sum += nonFinite(*values);
+  for (const auto* values : {&r.hub_force, &r.hub_moment, &r.position, &r.velocity, &r.angular_velocity}) sum += nonFinite(*values);
+  sum += nonFinite(r.orientation) + nonFinite(r.inflow);
+  sum += nonFinite(std::array<double, 6>{r.azimuth, r.rotor_speed, r.thrust_coefficient, r.torque_coefficient, r.power_coefficient, r.advance_ratio});
+  return sum == 0.0;
+}
+
+RotorView::RotorView(const CoupledSystem& system) : commands_(system) {
+  const auto find = [&system](const std::string& quantity, Index size) { return findPort(system, "rotor view", quantity, size); };
   // Quantities per blade must agree on the number of blades, which the first one present decides.
   std::string counted;
   const auto findPerBlade = [&](const std::string& quantity) {
-    const Range range = find(quantity, 0);
-    if (range.begin < 0) return range;
+    const PortRange range = find(quantity, 0);
+    if (!range.present()) return range;
     if (range.size > RotorReading::kMaxBlades)
       fail(quantity + " has " + std::to_string(range.size) + " blades, expected at most " + std::to_string(RotorReading::kMaxBlades));
     if (!counted.empty() && range.size != blades_)
@@ -78,44 +74,13 @@ RotorView::RotorView(const CoupledSystem& system) {
   inflow_ = find("inflow", 0);
   if (inflow_.size > RotorReading::kMaxInflow)
     fail("inflow has " + std::to_string(inflow_.size) + " entries, expected at most " + std::to_string(RotorReading::kMaxInflow));
-
-  const auto findCommand = [&system](const std::string& quantity) {
-    Index found = -1;
-    const std::vector<std::string>& names = system.commandNames();
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      if (localName(names[i]) != quantity) continue;
-      if (found >= 0) fail("both " + names[static_cast<std::size_t>(found)] + " and " + names[i] + " take the command " + quantity);
-      found = static_cast<Index>(i);
-    }
-    return found;
-  };
-  collective_ = findCommand("collective");
-  lateral_cyclic_ = findCommand("lateral_cyclic");
-  longitudinal_cyclic_ = findCommand("longitudinal_cyclic");
-
-  // All components of a vector, or none.
-  const auto findCommands = [&](const std::vector<std::string>& quantities) {
-    std::vector<Index> entries;
-    std::string missing;
-    for (const std::string& quantity : quantities) {
-      const Index entry = findCommand(quantity);
-      if (entry < 0) missing = quantity;
-      else entries.push_back(entry);
-    }
-    if (!missing.empty() && !entries.empty())
-      fail("the system takes the command " + system.commandNames()[static_cast<std::size_t>(entries.front())] + " but none called " + missing);
-    return entries;
-  };
-  speed_ = findCommands({"speed"});
-  wind_ = findCommands({"wind_x", "wind_y", "wind_z"});
-  external_wrench_ = findCommands({"external_force_x", "external_force_y", "external_force_z", "external_moment_x", "external_moment_y", "external_moment_z"});
 }
 
 void RotorView::read(const Sample& sample, RotorReading& reading) const noexcept {
-  const auto copy = [&sample](const Range& range, auto& target) {
-    if (range.begin >= 0) std::copy_n(sample.y.data() + range.begin, range.size, target.begin());
+  const auto copy = [&sample](const PortRange& range, auto& target) {
+    if (range.present()) std::copy_n(sample.y.data() + range.begin, range.size, target.begin());
   };
-  const auto value = [&sample](const Range& range) { return range.begin >= 0 ? sample.y[range.begin] : 0.0; };
+  const auto value = [&sample](const PortRange& range) { return range.present() ? sample.y[range.begin] : 0.0; };
   const auto command = [&sample](Index entry) { return entry >= 0 ? sample.w[entry] : 0.0; };
 
   reading.step = sample.step;
@@ -145,9 +110,9 @@ void RotorView::read(const Sample& sample, RotorReading& reading) const noexcept
   reading.advance_ratio = value(advance_ratio_);
   reading.inflow_states = static_cast<int>(inflow_.size);
   copy(inflow_, reading.inflow);
-  reading.collective = command(collective_);
-  reading.lateral_cyclic = command(lateral_cyclic_);
-  reading.longitudinal_cyclic = command(longitudinal_cyclic_);
+  reading.collective = command(commands_.collective());
+  reading.lateral_cyclic = command(commands_.lateralCyclic());
+  reading.longitudinal_cyclic = command(commands_.longitudinalCyclic());
 
   reading.newton_iterations = static_cast<std::uint32_t>(sample.newton_iterations);
   reading.residual_evaluations = static_cast<std::uint32_t>(sample.residual_evaluations);

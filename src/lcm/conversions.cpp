@@ -4,12 +4,12 @@
 
 namespace heerk_rotor {
 
-void toLcmState(const RotorReading& reading, std::int64_t stamp, const std::string& command_source, std::uint64_t overruns,
-                std::uint64_t dropped, rotor_state_t& message) {
+void toLcmState(const RotorInstant& instant, const LcmNote& note, rotor_state_t& message) {
+  const RotorReading& reading = instant.reading;
   const auto perBlade = [&reading](const RotorReading::PerBlade& values, std::vector<double>& target) {
     target.assign(values.begin(), values.begin() + reading.blades);
   };
-  message.stamp = stamp;
+  message.stamp = note.stamp;
   message.step = static_cast<std::int64_t>(reading.step);
   message.epoch = static_cast<std::int32_t>(reading.epoch);
   message.sim_time = reading.sim_time;
@@ -44,11 +44,35 @@ void toLcmState(const RotorReading& reading, std::int64_t stamp, const std::stri
   message.collective = reading.collective;
   message.lateral_cyclic = reading.lateral_cyclic;
   message.longitudinal_cyclic = reading.longitudinal_cyclic;
-  message.command_source = command_source;
+  message.command_source = name(instant.source);
   message.newton_iterations = static_cast<std::int32_t>(reading.newton_iterations);
   message.residual_evaluations = static_cast<std::int32_t>(reading.residual_evaluations);
-  message.overruns = static_cast<std::int64_t>(overruns);
-  message.dropped = static_cast<std::int64_t>(dropped);
+  message.overruns = static_cast<std::int64_t>(note.overruns);
+  message.dropped = static_cast<std::int64_t>(note.dropped);
+}
+
+void toLcmState(const ShaftInstant& instant, const LcmNote& note, shaft_state_t& message) {
+  const ShaftReading& reading = instant.reading;
+  message.stamp = note.stamp;
+  message.step = static_cast<std::int64_t>(reading.step);
+  message.epoch = static_cast<std::int32_t>(reading.epoch);
+  message.sim_time = reading.sim_time;
+  message.azimuth = reading.azimuth;
+  message.rotor_speed = reading.rotor_speed;
+  message.discs = reading.discs;
+  message.disc_x.assign(reading.disc_x.begin(), reading.disc_x.begin() + reading.discs);
+  message.disc_y.assign(reading.disc_y.begin(), reading.disc_y.begin() + reading.discs);
+  message.journal_x = reading.journal_x;
+  message.journal_y = reading.journal_y;
+  message.eccentricity_ratio = reading.eccentricity_ratio;
+  message.bearing_force_x = reading.bearing_force_x;
+  message.bearing_force_y = reading.bearing_force_y;
+  message.film_force_x = reading.film_force_x;
+  message.film_force_y = reading.film_force_y;
+  message.newton_iterations = static_cast<std::int32_t>(reading.newton_iterations);
+  message.residual_evaluations = static_cast<std::int32_t>(reading.residual_evaluations);
+  message.overruns = static_cast<std::int64_t>(note.overruns);
+  message.dropped = static_cast<std::int64_t>(note.dropped);
 }
 
 }  // namespace heerk_rotor

@@ -2,15 +2,13 @@
 
 #include <cerrno>
 #include <chrono>
-#include <cmath>
-
-#include "heerk_rotor/lcm/conversions.hpp"
 
 namespace heerk_rotor {
 
 using std::chrono::milliseconds;
 
-LcmBridge::LcmBridge(const std::string& url, RotorRing& ring, std::int64_t stamp_base, CommandHandler handler)
+template <class Instant>
+LcmBridge<Instant>::LcmBridge(const std::string& url, SnapshotRing<Instant>& ring, std::int64_t stamp_base, CommandHandler handler)
     : url_(url), lcm_(url), ring_(ring), stamp_base_(stamp_base), handler_(std::move(handler)) {
   if (!lcm_.good())
     throw LcmError("LCM cannot open " + url + " (on a machine without default route: ip link set lo up; ip route add 224.0.0.0/4 dev lo)");
@@ -22,34 +20,38 @@ LcmBridge::LcmBridge(const std::string& url, RotorRing& ring, std::int64_t stamp
   lcm_.subscribeFunction(kCommandChannel, &LcmBridge::onCommand, this);
 }
 
-LcmBridge::~LcmBridge() { stop(); }
+template <class Instant>
+LcmBridge<Instant>::~LcmBridge() { stop(); }
 
-void LcmBridge::start() {
+template <class Instant>
+void LcmBridge<Instant>::start() {
   sender_ = std::thread([this] { send(); });
   if (handler_) receiver_ = std::thread([this] { receive(); });
 }
 
-void LcmBridge::stop() {
+template <class Instant>
+void LcmBridge<Instant>::stop() {
   stop_ = true;
   if (sender_.joinable()) sender_.join();
   if (receiver_.joinable()) receiver_.join();
 }
 
-void LcmBridge::send() {
-  RotorInstant instant;
-  rotor_state_t message;
+template <class Instant>
+void LcmBridge<Instant>::send() {
+  Instant instant;
+  typename LcmState<Instant>::Message message;
   for (;;) {
     const bool last_round = stop_;  // read first: what was pushed before stop() is still published
     while (ring_.popWaiting(instant, last_round ? milliseconds(0) : milliseconds(50))) {
-      const std::int64_t stamp = stamp_base_ + std::llround(instant.reading.sim_time * 1e9);
-      toLcmState(instant.reading, stamp, name(instant.source), overruns_(), ring_.dropped(), message);
+      toLcmState(instant, {lcmStamp(stamp_base_, instant.reading.sim_time), overruns_(), ring_.dropped()}, message);
       ++(lcm_.publish(kStateChannel, &message) == 0 ? published_ : failed_);
     }
     if (last_round) return;
   }
 }
 
-void LcmBridge::receive() {
+template <class Instant>
+void LcmBridge<Instant>::receive() {
   while (!stop_) {
     errno = 0;
     receive_failing_ = lcm_.handleTimeout(50) < 0 && errno != EINTR;
@@ -59,14 +61,19 @@ void LcmBridge::receive() {
   }
 }
 
-std::string LcmBridge::problem() const {
+template <class Instant>
+std::string LcmBridge<Instant>::problem() const {
   if (!receive_failing_) return "";
   return "LCM cannot receive commands from " + url_ + " any more (" + std::to_string(receive_errors_) + " attempts failed)";
 }
 
-void LcmBridge::onCommand(const lcm::ReceiveBuffer*, const std::string&, const swashplate_command_t* command, LcmBridge* self) {
+template <class Instant>
+void LcmBridge<Instant>::onCommand(const lcm::ReceiveBuffer*, const std::string&, const swashplate_command_t* command, LcmBridge* self) {
   ++self->received_;
   self->handler_(*command);
 }
+
+template class LcmBridge<RotorInstant>;
+template class LcmBridge<ShaftInstant>;
 
 }  // namespace heerk_rotor

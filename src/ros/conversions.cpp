@@ -23,7 +23,8 @@ void assign(const std::array<double, 4>& wxyz, geometry_msgs::Quaternion& target
 
 }  // namespace
 
-void toRotorState(const RotorReading& reading, const ros::Time& stamp, const PublisherNote& note, RotorState& message) {
+void toRotorState(const RotorInstant& instant, const ros::Time& stamp, const PublisherNote& note, RotorState& message) {
+  const RotorReading& reading = instant.reading;
   message.header.stamp = stamp;
   message.header.frame_id = frames::kHub;
   message.step = reading.step;
@@ -57,7 +58,31 @@ void toRotorState(const RotorReading& reading, const ros::Time& stamp, const Pub
   message.collective = reading.collective;
   message.lateral_cyclic = reading.lateral_cyclic;
   message.longitudinal_cyclic = reading.longitudinal_cyclic;
-  message.command_source = note.command_source;
+  message.command_source = name(instant.source);
+  message.newton_iterations = reading.newton_iterations;
+  message.residual_evaluations = reading.residual_evaluations;
+  message.overruns = note.overruns;
+  message.dropped = note.dropped;
+}
+
+void toShaftState(const ShaftInstant& instant, const ros::Time& stamp, const PublisherNote& note, ShaftState& message) {
+  const ShaftReading& reading = instant.reading;
+  message.header.stamp = stamp;
+  message.header.frame_id = frames::kShaft;
+  message.step = reading.step;
+  message.epoch = reading.epoch;
+  message.sim_time = reading.sim_time;
+  message.azimuth = reading.azimuth;
+  message.rotor_speed = reading.rotor_speed;
+  message.disc_x.assign(reading.disc_x.begin(), reading.disc_x.begin() + reading.discs);
+  message.disc_y.assign(reading.disc_y.begin(), reading.disc_y.begin() + reading.discs);
+  message.journal_x = reading.journal_x;
+  message.journal_y = reading.journal_y;
+  message.eccentricity_ratio = reading.eccentricity_ratio;
+  message.bearing_force_x = reading.bearing_force_x;
+  message.bearing_force_y = reading.bearing_force_y;
+  message.film_force_x = reading.film_force_x;
+  message.film_force_y = reading.film_force_y;
   message.newton_iterations = reading.newton_iterations;
   message.residual_evaluations = reading.residual_evaluations;
   message.overruns = note.overruns;

@@ -23,10 +23,10 @@ bool hasFrame(const Message& message, const std::string& expected, HeldInput& in
 
 }  // namespace
 
-DisturbanceInputs::DisturbanceInputs(const CoupledSystem& system, const RotorView& view)
-    : speed_(system, "speed command", view.speedCommand(), {"rad/s"}),
-      wind_(system, "wind", view.windCommand(), {"m/s"}),
-      external_wrench_(system, "external wrench", view.externalWrenchCommand(), {"N", "N", "N", "N m"}) {}
+DisturbanceInputs::DisturbanceInputs(const CoupledSystem& system, const CommandView& commands)
+    : speed_(system, "speed command", commands.speed(), {"rad/s"}),
+      wind_(system, "wind", commands.wind(), {"m/s"}),
+      external_wrench_(system, "external wrench", commands.externalWrench(), {"N", "N", "N", "N m"}) {}
 
 void DisturbanceInputs::subscribe(ros::NodeHandle& node) {
   // Only the newest message matters. roscpp calls one subscriber's callbacks one after the other: one writer per input.

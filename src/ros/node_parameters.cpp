@@ -119,8 +119,8 @@ NodeParameters readNodeParameters(const XmlRpcValue& values, std::vector<std::st
   if (p.config.empty()) reader.add("~config is missing: expected the absolute path of a configuration file (config/*.yaml of this package)");
   reader.words("set", p.set);
   reader.number("real_time_factor", p.real_time_factor, " (1 = real time, 0 = as fast as possible)");
-  reader.integer("publish_every", p.publish_every, 1, kMany);
-  reader.integer("steps_per_wake", p.steps_per_wake, 1, kMany);
+  reader.integer("publish_every", p.publish_every, 0, kMany);
+  reader.integer("steps_per_wake", p.steps_per_wake, 0, kMany);
   reader.number("command_timeout", p.command_timeout, " [s] (0 = never)");
   std::string policy = "hold";
   reader.word("timeout_policy", policy);
@@ -129,7 +129,7 @@ NodeParameters readNodeParameters(const XmlRpcValue& values, std::vector<std::st
   reader.flag("publish_clock", p.publish_clock);
   reader.word("lcm_url", p.lcm_url);
   p.lcm_url_given = !p.lcm_url.empty() && p.lcm_url != NodeParameters::kDefaultLcmUrl;
-  reader.integer("lcm_every", p.lcm_every, 1, kMany);
+  reader.integer("lcm_every", p.lcm_every, 0, kMany);
   reader.word("lcm_log", p.lcm_log);
   reader.integer("priority", p.priority, 0, 99);
   reader.integer("lock_step", p.lock_step, 0, kMany);

@@ -51,11 +51,11 @@ RotorGeometry readRotorGeometry(const Configuration& configuration) {
   return geometry;
 }
 
-CommandLimits readCommandLimits(const Configuration& configuration, const CoupledSystem& system, const RotorView& view) {
+CommandLimits readCommandLimits(const Configuration& configuration, const CoupledSystem& system, const CommandView& commands) {
   const Swashplate::Parameters defaults;
   CommandLimits limits{defaults.collective_min, defaults.collective_max, defaults.cyclic_limit};
-  if (!view.hasSwashplate()) return limits;
-  const std::string& command = system.commandNames()[static_cast<std::size_t>(view.collectiveCommand())];
+  if (!commands.hasSwashplate()) return limits;
+  const std::string& command = system.commandNames()[static_cast<std::size_t>(commands.collective())];
   Problems ignored;
   Section section(configuration, "subsystems." + command.substr(0, command.rfind('.')), ignored);
   limits.collective_min = section.number("collective_min", limits.collective_min, "rad");

@@ -1,21 +1,15 @@
 #include "heerk_rotor/ros/rotor_node.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <sstream>
 
 #include "heerk_rotor/assembly/build_simulation.hpp"
-#include "heerk_rotor/config/simulation_settings.hpp"
-#include "heerk_rotor/ros/failure_report.hpp"
-#include "heerk_rotor/ros/lcm_link.hpp"
+#include "heerk_rotor/ros/rotor_geometry.hpp"
 
 namespace heerk_rotor {
 namespace {
-
-constexpr double kRecorderSeconds = 10.0;  // of steps that a recorder's ring holds (interface)
-constexpr double kReaderSeconds = 1.0;     // of a publisher's ring
 
 StampBase chooseStampBase(bool publish_clock) {
   if (publish_clock) {
@@ -25,13 +19,6 @@ StampBase chooseStampBase(bool publish_clock) {
   if (ros::Time::isSimTime() && !ros::Time::waitForValid(ros::WallDuration(5.0)))
     ROS_WARN("/use_sim_time is true, but nobody publishes /clock: stamps are simulation time (set ~publish_clock to publish it here)");
   return StampBase{static_cast<std::int64_t>(ros::Time::now().toNSec())};
-}
-
-/// Steps of one revolution, for the history before a failure.
-std::size_t revolutionSteps(const Configuration& configuration, double step) {
-  Problems ignored;  // the simulation has been built from it
-  const double steps = std::ceil(readSimulationSettings(configuration, ignored).revolution() / step) + 1.0;
-  return static_cast<std::size_t>(std::clamp(steps, 2.0, 100000.0));
 }
 
 /// roscpp's log is silent once a signal has shut ROS down, but the end of a run is news all the same.
@@ -47,28 +34,19 @@ RotorNode::RotorNode(const NodeParameters& parameters)
     : parameters_(parameters),
       configuration_(Configuration::load(parameters.config, parameters.set)),
       simulation_(buildSimulation(configuration_)),
-      view_(simulation_->system()),
-      geometry_(readRotorGeometry(configuration_)),
+      commands_(simulation_->system()),
+      rates_(chooseRates(parameters, simulation_->stepSize())),
       stamps_(chooseStampBase(parameters.publish_clock)),
-      input_(readCommandLimits(configuration_, simulation_->system(), view_), parameters.lock_step > 0, [this] { loop_.wake(); }),
-      disturbances_(simulation_->system(), view_),
-      task_(*simulation_, view_, input_, taskOptions()),
-      loop_(task_, clock_, {simulation_->stepSize(), parameters.real_time_factor, parameters.steps_per_wake, parameters.priority}),
-      state_ring_(ringCapacity(kReaderSeconds, parameters.publish_every)),
-      state_publisher_(node_, state_ring_, {stamps_, parameters.publish_clock, [this] { return loop_.timing().overruns(); }}),
-      view_publisher_(node_, task_.newest(), geometry_, stamps_),
+      input_(readCommandLimits(configuration_, simulation_->system(), commands_), parameters.lock_step > 0, [this] { loop_.wake(); }),
+      disturbances_(simulation_->system(), commands_),
+      outlets_(openOutlets({node_, configuration_, *simulation_, parameters_, rates_, stamps_, commands_.hasSwashplate() ? &input_ : nullptr, [this] { return loop_.timing().overruns(); }})),
+      task_(*simulation_, outlets_->feed(), commands_, input_, taskOptions()),
+      loop_(task_, clock_, {simulation_->stepSize(), parameters.real_time_factor, rates_.steps_per_wake, parameters.priority}),
       services_(private_node_, *simulation_, task_, loop_, configuration_.resolvedText(), parameters.lock_step > 0),
       trim_service_(private_node_, configuration_, *simulation_, task_, loop_),
-      diagnostics_(node_, *simulation_, task_, loop_, view_.hasSwashplate() ? &input_ : nullptr) {
-  const double steps_per_second = 1.0 / simulation_->stepSize();
-  const double recorded = parameters_.duration > 0.0 ? parameters_.duration : 60.0;  // [s]; endless: room for a minute at least
-  const LcmLink::Sizes sizes{ringCapacity(kReaderSeconds, parameters_.lcm_every), ringCapacity(kRecorderSeconds, 1), recorded * steps_per_second};
-  lcm_ = std::make_unique<LcmLink>(parameters_, sizes, stamps_, view_.hasSwashplate() ? &input_ : nullptr, [this] { return loop_.timing().overruns(); });
-
+      diagnostics_(node_, *simulation_, task_, loop_, commands_.hasSwashplate() ? &input_ : nullptr) {
   for (HeldInput* input : {&disturbances_.speed(), &disturbances_.wind(), &disturbances_.externalWrench()}) task_.addInput(*input);
-  task_.addRing(state_ring_, static_cast<std::uint64_t>(parameters_.publish_every));
-  diagnostics_.addReader({"ROS", [this] { return state_publisher_.published(); }, &state_ring_});
-  lcm_->connect(task_, diagnostics_, parameters_.real_time_factor == 0.0, loop_.stopRequested());
+  outlets_->connect(diagnostics_, loop_.stopRequested());
   subscribeToCommands();
 }
 
@@ -80,19 +58,13 @@ RotorTask::Options RotorNode::taskOptions() const {
   options.timeout_policy = parameters_.timeout_policy;
   options.lock_step = static_cast<std::uint64_t>(parameters_.lock_step);
   options.last_step = static_cast<std::uint64_t>(std::llround(parameters_.duration / simulation_->stepSize()));
-  options.history = revolutionSteps(configuration_, simulation_->stepSize());
   return options;
-}
-
-std::size_t RotorNode::ringCapacity(double seconds, int every) const {
-  const double steps = seconds * std::max(1.0, parameters_.real_time_factor) / simulation_->stepSize();
-  return static_cast<std::size_t>(std::max(256.0, std::ceil(steps / every)));
 }
 
 void RotorNode::subscribeToCommands() {
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   disturbances_.subscribe(node_);
-  if (!view_.hasSwashplate()) {
+  if (!commands_.hasSwashplate()) {
     ROS_INFO("the configuration has no swashplate: commands are not subscribed to");
     return;
   }
@@ -106,9 +78,7 @@ void RotorNode::subscribeToCommands() {
 }
 
 void RotorNode::start() {
-  state_publisher_.start();
-  view_publisher_.start();
-  lcm_->start();
+  outlets_->start();
   const RealTimeRights rights = loop_.start();
   if (!rights.complaint.empty()) ROS_WARN_STREAM("step thread without full real-time rights: " << rights.complaint);
   const std::string scheduling = parameters_.real_time_factor > 0.0 ? rights.text(parameters_.priority) : "as fast as possible at normal priority";
@@ -116,7 +86,8 @@ void RotorNode::start() {
   spinner_.start();
   trim_service_.start();
   ROS_INFO_STREAM("running " << configuration_.file() << ": " << simulation_->options().method << ", step " << simulation_->stepSize() << " s, real-time factor "
-                             << parameters_.real_time_factor << "; step thread: " << scheduling);
+                             << parameters_.real_time_factor << ", " << rates_.steps_per_wake << " steps per wake-up, every " << rates_.publish_every
+                             << " to ROS, every " << rates_.lcm_every << ". to LCM; step thread: " << scheduling);
 }
 
 int RotorNode::run() {
@@ -133,7 +104,7 @@ int RotorNode::run() {
 void RotorNode::supervise() {
   failed_ = loop_.mode() == RealTimeLoop::Mode::kFailed;
   if (failed_) reportFailure();
-  const std::string problem = lcm_->recordingProblem();
+  const std::string problem = outlets_->recordingProblem();
   if (problem.empty() || recording_problem_reported_) return;
   recording_problem_reported_ = true;
   ROS_ERROR_STREAM(problem);
@@ -141,20 +112,20 @@ void RotorNode::supervise() {
 
 void RotorNode::reportFailure() {
   std::string text;
-  std::vector<RotorInstant> history;
+  Outlets::History history;
   std::int64_t epoch = -1;
   loop_.call([&] {
     if (loop_.mode() != RealTimeLoop::Mode::kFailed) return;  // mended meanwhile
     text = task_.failureText();
-    history = task_.history();
+    history = outlets_->history();
     epoch = simulation_->epoch();
   });
   if (epoch < 0 || epoch == reported_epoch_) return;
   reported_epoch_ = epoch;
   ROS_ERROR_STREAM("the simulation stopped at " << text << ". Call ~reset or ~load_snapshot to go on");
   try {
-    writeFailureHistory(parameters_.failure_file, history);
-    ROS_ERROR_STREAM("the last " << history.size() << " instants before it are in " << parameters_.failure_file);
+    history.write(parameters_.failure_file);
+    ROS_ERROR_STREAM("the last " << history.instants << " instants before it are in " << parameters_.failure_file);
   } catch (const std::exception& error) {
     ROS_ERROR_STREAM("the instants before it could not be written: " << error.what());
   }
@@ -166,9 +137,7 @@ void RotorNode::stop() {
   diagnostics_.stop();
   loop_.stop();
   // From here on nothing new enters the rings; the readers finish what is in them.
-  state_publisher_.stop();
-  view_publisher_.stop();
-  lcm_->stop();
+  outlets_->stop();
 }
 
 int RotorNode::exitStatus() {
@@ -177,7 +146,7 @@ int RotorNode::exitStatus() {
   summary << "ended after " << timing.steps << " steps, simulation time " << simulation_->time() << " s: " << timing.overruns << " overruns (" << timing.late_wake_ups
           << " late wake-ups, " << timing.long_steps << " long steps), " << timing.slips << " slips";
   sayAtTheEnd(summary.str(), false);
-  const std::string problem = lcm_->recordingProblem();
+  const std::string problem = outlets_->recordingProblem();
   if (!problem.empty() && !recording_problem_reported_) sayAtTheEnd(problem, true);
   if (loop_.mode() == RealTimeLoop::Mode::kFailed) return kSimulationFailed;
   return problem.empty() ? kDone : kRecordingIncomplete;

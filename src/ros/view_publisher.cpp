@@ -1,33 +1,27 @@
 #include "heerk_rotor/ros/view_publisher.hpp"
 
 #include <algorithm>
-#include <functional>
-#include <vector>
 
 namespace heerk_rotor {
 
-/// One message type with its rate.
-struct ViewPublisher::Output {
-  Clock::duration period;
-  std::function<void(const RotorReading&, const ros::Time&)> publish;
-  Clock::time_point due = {};
-  ros::Time published = {};  // stamp of the last one: a stamp is never published twice
-};
-
-ViewPublisher::ViewPublisher(ros::NodeHandle& node, LatestValue<RotorPicture>& newest, const RotorGeometry& geometry, const StampBase& stamps)
-    : newest_(newest), geometry_(geometry), stamps_(stamps) {
-  odometry_ = node.advertise<nav_msgs::Odometry>("rotor/odom", 100);
-  joints_ = node.advertise<sensor_msgs::JointState>("joint_states", 60);
-  blades_ = node.advertise<visualization_msgs::MarkerArray>("rotor/blades", 5);
+template <class Picture>
+ViewPublisher<Picture>::ViewPublisher(LatestValue<Picture>& newest, std::vector<ViewOutput<Picture>> outputs, const StampBase& stamps)
+    : newest_(newest), stamps_(stamps) {
+  for (ViewOutput<Picture>& output : outputs) outputs_.push_back({std::move(output), {}, {}});
 }
 
-ViewPublisher::~ViewPublisher() { stop(); }
+template <class Picture>
+ViewPublisher<Picture>::~ViewPublisher() {
+  stop();
+}
 
-void ViewPublisher::start() {
+template <class Picture>
+void ViewPublisher<Picture>::start() {
   thread_ = std::thread([this] { run(); });
 }
 
-void ViewPublisher::stop() {
+template <class Picture>
+void ViewPublisher<Picture>::stop() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     stop_ = true;
@@ -36,19 +30,9 @@ void ViewPublisher::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-void ViewPublisher::run() {
-  nav_msgs::Odometry odometry;
-  geometry_msgs::TransformStamped transform;
-  sensor_msgs::JointState joints;
-  visualization_msgs::MarkerArray markers;
-  RotorPicture picture;
-  const auto rate = [](int hertz) { return std::chrono::duration_cast<Clock::duration>(std::chrono::seconds(1)) / hertz; };
-  std::vector<Output> outputs = {
-      {rate(100), [&](const RotorReading& r, const ros::Time& stamp) { toOdometry(r, stamp, odometry), odometry_.publish(odometry); }},
-      {rate(60), [&](const RotorReading& r, const ros::Time& stamp) { toTransform(r, stamp, transform), broadcaster_.sendTransform(transform); }},
-      {rate(60), [&](const RotorReading& r, const ros::Time& stamp) { toJointState(r, stamp, joints), joints_.publish(joints); }},
-      {rate(30), [&](const RotorReading& r, const ros::Time& stamp) { toMarkers(r, picture.blades, geometry_, MarkerScale(), stamp, markers), blades_.publish(markers); }}};
-
+template <class Picture>
+void ViewPublisher<Picture>::run() {
+  Picture picture;
   bool have = false;
   std::unique_lock<std::mutex> lock(mutex_);
   while (!stop_) {
@@ -56,18 +40,22 @@ void ViewPublisher::run() {
     const Clock::time_point now = Clock::now();
     const ros::Time stamp = stamps_.at(picture.instant.reading.sim_time);
     Clock::time_point next = now + std::chrono::seconds(1);
-    for (Output& output : outputs) {
+    for (Output& output : outputs_) {
       if (output.due <= now) {
         if (have && stamp > output.published) {
-          output.publish(picture.instant.reading, stamp);
+          output.view.publish(picture, stamp);
           output.published = stamp;
         }
-        output.due = std::max(output.due + output.period, now);  // what was missed is not made up for
+        const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::seconds(1)) / output.view.rate;
+        output.due = std::max(output.due + period, now);  // what was missed is not made up for
       }
       next = std::min(next, output.due);
     }
     stopping_.wait_until(lock, next, [this] { return stop_; });
   }
 }
+
+template class ViewPublisher<RotorPicture>;
+template class ViewPublisher<ShaftPicture>;
 
 }  // namespace heerk_rotor

@@ -3,24 +3,22 @@
 #ifdef HEERK_WITH_LCM
 
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 
 #include <lcm/eventlog.h>
 
-#include "heerk_rotor/lcm/conversions.hpp"
+#include "heerk_rotor/lcm/lcm_log_packer.hpp"
 #include "heerk_rotor/tools/free_space.hpp"
 
 namespace heerk_rotor {
 namespace {
 
+template <class Kind>
 class LcmRecorder final : public Recorder {
  public:
-  LcmRecorder(const std::string& file, RotorView view, const RotorRecording& recording)
-      : Recorder(file, recording.grid),
-        view_(std::move(view)),
-        space_(file, recording.disk_reserve),
-        command_source_(recording.command_source) {
+  LcmRecorder(const std::string& file, const CoupledSystem& system, const StateRecording& recording)
+      : Recorder(file, recording.grid), view_(system), space_(file, recording.disk_reserve), packer_(recording.grid.every) {
+    instant_.source = recording.command_source;
     if (!space_.enough()) throw RecordError(space_.reason());
     log_ = lcm_eventlog_create(file.c_str(), "w");
     if (log_ == nullptr) throw RecordError(std::strerror(errno));
@@ -35,21 +33,25 @@ class LcmRecorder final : public Recorder {
 
   void observe(const Sample& sample) noexcept override {
     if (!space_.enough()) return fail(space_.reason());
-    view_.read(sample, reading_);
-    toLcmState(reading_, std::llround(sample.t * 1e9), command_source_, 0, 0, message_);
-    buffer_.resize(static_cast<std::size_t>(message_.getEncodedSize()));
-    message_.encode(buffer_.data(), 0, static_cast<int>(buffer_.size()));
-    lcm_eventlog_event_t event = {};
-    event.timestamp = std::llround(sample.t * 1e6);
-    event.channellen = static_cast<std::int32_t>(channel_.size());
-    event.channel = channel_.data();
-    event.datalen = static_cast<std::int32_t>(buffer_.size());
-    event.data = buffer_.data();
-    if (lcm_eventlog_write_event(log_, &event) != 0) failFromSystem();
+    view_.read(sample, instant_.reading);
+    packer_.add(instant_, {lcmStamp(0, sample.t), 0, 0}, write_);
   }
 
  private:
+  bool write(const LcmPackedEvent& packed) {
+    lcm_eventlog_event_t event = {};
+    event.timestamp = packed.stamp / 1000;
+    event.channellen = static_cast<std::int32_t>(std::strlen(packed.channel));
+    event.channel = const_cast<char*>(packed.channel);  // both are only read
+    event.datalen = static_cast<std::int32_t>(packed.data.size());
+    event.data = const_cast<std::uint8_t*>(packed.data.data());
+    if (lcm_eventlog_write_event(log_, &event) == 0) return true;
+    failFromSystem();
+    return false;
+  }
+
   void finish() override {
+    packer_.flush(write_);
     // The library closes without looking at the result, so what is still buffered is written here.
     if (std::fflush(log_->f) != 0) failFromSystem();
     lcm_eventlog_destroy(log_);
@@ -57,20 +59,19 @@ class LcmRecorder final : public Recorder {
 
   void failFromSystem() { fail(std::string("writing failed (") + std::strerror(errno) + ")"); }
 
-  RotorView view_;
+  const typename Kind::View view_;
   FreeSpace space_;
-  std::string command_source_;
-  std::string channel_ = "ROTOR_STATE";
+  LcmLogPacker<typename Kind::Instant> packer_;
+  const LcmEventWriter write_ = [this](const LcmPackedEvent& event) { return write(event); };
   lcm_eventlog_t* log_ = nullptr;
-  RotorReading reading_;
-  rotor_state_t message_;
-  std::vector<std::uint8_t> buffer_;
+  typename Kind::Instant instant_;
 };
 
 }  // namespace
 
-std::unique_ptr<Recorder> openLcmRecorder(const std::string& file, const CoupledSystem& system, const RotorRecording& recording) {
-  return std::make_unique<LcmRecorder>(file, rotorViewFor(system), recording);
+std::unique_ptr<Recorder> openLcmRecorder(const std::string& file, const CoupledSystem& system, const StateRecording& recording) {
+  if (recordedKind(system) == MachineKind::kShaft) return std::make_unique<LcmRecorder<ShaftKind>>(file, system, recording);
+  return std::make_unique<LcmRecorder<RotorKind>>(file, system, recording);
 }
 
 }  // namespace heerk_rotor
@@ -79,7 +80,7 @@ std::unique_ptr<Recorder> openLcmRecorder(const std::string& file, const Coupled
 
 namespace heerk_rotor {
 
-std::unique_ptr<Recorder> openLcmRecorder(const std::string&, const CoupledSystem&, const RotorRecording&) {
+std::unique_ptr<Recorder> openLcmRecorder(const std::string&, const CoupledSystem&, const StateRecording&) {
   throw RecordError("this build has no LCM: use .csv or .bag");
 }
 

@@ -11,7 +11,7 @@ namespace heerk_rotor {
 namespace {
 
 std::unique_ptr<Recorder> open(const std::string& file, const RunSetup& setup, const std::vector<Signal>& signals,
-                               const RotorRecording& recording) {
+                               const StateRecording& recording) {
   const CoupledSystem& system = setup.simulation->system();
   switch (outputKind(file).value()) {
     case OutputKind::kBag: return openBagRecorder(file, system, recording);
@@ -32,23 +32,23 @@ void checkSnapshotFolder(const std::string& file, Problems& problems) {
 
 }  // namespace
 
-RotorView rotorViewFor(const CoupledSystem& system) {
+MachineKind recordedKind(const CoupledSystem& system) {
   try {
-    RotorView view(system);
-    if (view.blades() > 0) return view;
+    const MachineKind kind = machineKind(system);
+    if (kind != MachineKind::kOther) return kind;
   } catch (const std::invalid_argument& error) {
     throw RecordError(error.what());
   }
-  throw RecordError("this configuration has no rotor quantities (no output port named lag or flap): use .csv");
+  throw RecordError("this configuration has neither rotor quantities (no output port named lag or flap) nor those of a shaft (displacement): use .csv");
 }
 
 Recorders openRecorders(const SimulateOptions& options, RunSetup& setup, const std::vector<Signal>& signals) {
   Problems problems;
   checkSnapshotFolder(options.save_snapshot, problems);
   Recorders recorders;
-  RotorRecording recording;
+  StateRecording recording;
   recording.grid = {setup.simulation->stepCount(), options.every};
-  if (!options.commands.empty()) recording.command_source = "file";
+  if (!options.commands.empty()) recording.command_source = CommandSource::kFile;
   for (const std::string& file : options.outputs) {
     try {
       recorders.push_back(open(file, setup, signals, recording));

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "heerk_rotor/assembly/build_simulation.hpp"
-#include "heerk_rotor/assembly/rotor_view.hpp"
+#include "heerk_rotor/assembly/command_view.hpp"
 #include "heerk_rotor/assembly/snapshot.hpp"
 #include "heerk_rotor/assembly/start_file.hpp"
 
@@ -125,16 +125,16 @@ void clampToRange(std::vector<CommandRow>& rows, const std::array<Index, 3>& ent
 
 CommandSchedule openCommands(const std::string& file, const Simulation& simulation) {
   std::vector<CommandRow> rows = readCommandFile(file);
-  const RotorView view(simulation.system());
-  const std::array<Index, 3> entries = {view.collectiveCommand(), view.lateralCyclicCommand(), view.longitudinalCyclicCommand()};
+  const CommandView commands(simulation.system());
+  const std::array<Index, 3> entries = {commands.collective(), commands.lateralCyclic(), commands.longitudinalCyclic()};
   for (const Index entry : entries)
     if (entry < 0) {
-      std::string commands;
-      for (const std::string& name : simulation.system().commandNames()) commands += (commands.empty() ? "" : ", ") + name;
+      std::string taken;
+      for (const std::string& name : simulation.system().commandNames()) taken += (taken.empty() ? "" : ", ") + name;
       Problems problems;
       problems.add({"command line", "--commands", file,
                     "a configuration whose swashplate takes collective, lateral_cyclic and longitudinal_cyclic; this one takes " +
-                        (commands.empty() ? std::string("no commands") : commands)});
+                        (taken.empty() ? std::string("no commands") : taken)});
       throw ConfigurationError(problems);
     }
   clampToRange(rows, entries, simulation.system(), file);

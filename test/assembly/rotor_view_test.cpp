@@ -149,16 +149,16 @@ TEST(RotorView, refusesSizesThatDisagree) {
   EXPECT_NE(refusal(systemOf(Offering({{"inflow", 9}}))).find("inflow has 9 entries, expected at most 8"), std::string::npos);
 }
 
-TEST(RotorView, findsDisturbancesCompleteOrNotAtAll) {
+TEST(CommandView, findsDisturbancesCompleteOrNotAtAll) {
   const CoupledSystem system = systemOf(Offering({{"azimuth", 1}}, {"speed", "wind_z", "wind_x", "wind_y"}),
                                         Offering({{"lag", 3}}, {"external_moment_x", "external_moment_y", "external_moment_z", "external_force_x", "external_force_y", "external_force_z"}));
-  const RotorView view(system);
-  EXPECT_EQ(view.speedCommand(), (std::vector<Index>{0}));
-  EXPECT_EQ(view.windCommand(), (std::vector<Index>{2, 3, 1}));
-  EXPECT_EQ(view.externalWrenchCommand(), (std::vector<Index>{7, 8, 9, 4, 5, 6}));
-  const RotorView none(systemOf(Offering({{"lag", 3}})));
-  EXPECT_TRUE(none.speedCommand().empty() && none.windCommand().empty() && none.externalWrenchCommand().empty());
-  EXPECT_EQ(refusal(systemOf(Offering({{"lag", 3}}, {"wind_x", "wind_y"}))), "rotor view: the system takes the command part_0.wind_x but none called wind_z");
+  const CommandView view(system);
+  EXPECT_EQ(view.speed(), (std::vector<Index>{0}));
+  EXPECT_EQ(view.wind(), (std::vector<Index>{2, 3, 1}));
+  EXPECT_EQ(view.externalWrench(), (std::vector<Index>{7, 8, 9, 4, 5, 6}));
+  const CommandView none(systemOf(Offering({{"lag", 3}})));
+  EXPECT_TRUE(none.speed().empty() && none.wind().empty() && none.externalWrench().empty());
+  EXPECT_EQ(refusal(systemOf(Offering({{"lag", 3}}, {"wind_x", "wind_y"}))), "command view: the system takes the command part_0.wind_x but none called wind_z");
 }
 
 }  // namespace

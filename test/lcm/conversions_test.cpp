@@ -34,7 +34,7 @@ RotorReading distinctReading(int blades) {
 TEST(LcmConversions, everyFieldSurvivesEncodingAndDecoding) {
   const RotorReading r = distinctReading(4);
   rotor_state_t written, m;
-  toLcmState(r, 987654321, "lcm", 11, 12, written);
+  toLcmState(RotorInstant{r, CommandSource::kLcm}, {987654321, 11, 12}, written);
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(written.getEncodedSize()));
   ASSERT_EQ(written.encode(bytes.data(), 0, static_cast<int>(bytes.size())), static_cast<int>(bytes.size()));
   ASSERT_EQ(m.decode(bytes.data(), 0, static_cast<int>(bytes.size())), static_cast<int>(bytes.size()));
@@ -91,8 +91,8 @@ TEST(LcmConversions, everyFieldSurvivesEncodingAndDecoding) {
 
 TEST(LcmConversions, aReusedMessageShrinksWithTheNumberOfBlades) {
   rotor_state_t m;
-  toLcmState(distinctReading(5), 0, "none", 0, 0, m);
-  toLcmState(distinctReading(2), 0, "none", 0, 0, m);
+  toLcmState(RotorInstant{distinctReading(5)}, {}, m);
+  toLcmState(RotorInstant{distinctReading(2)}, {}, m);
   EXPECT_EQ(m.blades, 2);
   EXPECT_EQ(m.lag, (std::vector<double>{1.0, 2.0}));
   EXPECT_EQ(m.tip_twist.size(), 2u);

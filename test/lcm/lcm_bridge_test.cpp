@@ -13,6 +13,8 @@
 namespace heerk_rotor {
 namespace {
 
+using RotorBridge = LcmBridge<RotorInstant>;
+
 /// Multicast that never leaves the machine, on a port of this process, so that test runs side by side do not hear each other.
 std::string localUrl() { return "udpm://239.255.76.67:" + std::to_string(20000 + getpid() % 20000) + "?ttl=0"; }
 
@@ -28,11 +30,11 @@ TEST(LcmBridge, publishesEveryInstantOfTheRingInOrder) {
   lcm::LCM listener(url);
   ASSERT_TRUE(listener.good());
   std::vector<rotor_state_t> heard;
-  listener.subscribeFunction(LcmBridge::kStateChannel, +[](const lcm::ReceiveBuffer*, const std::string&, const rotor_state_t* m, std::vector<rotor_state_t>* list) { list->push_back(*m); }, &heard)
+  listener.subscribeFunction(RotorBridge::kStateChannel, +[](const lcm::ReceiveBuffer*, const std::string&, const rotor_state_t* m, std::vector<rotor_state_t>* list) { list->push_back(*m); }, &heard)
       ->setQueueCapacity(1000);
 
   RotorRing ring(512);
-  LcmBridge bridge(url, ring, 5000000000, nullptr);
+  RotorBridge bridge(url, ring, 5000000000, nullptr);
   bridge.setOverrunCounter([] { return std::uint64_t{42}; });
   bridge.start();
   RotorInstant instant;
@@ -64,7 +66,7 @@ TEST(LcmBridge, handsCommandsOnUnchanged) {
   RotorRing ring(4);
   std::mutex mutex;
   std::vector<swashplate_command_t> received;
-  LcmBridge bridge(url, ring, 0, [&](const swashplate_command_t& command) {
+  RotorBridge bridge(url, ring, 0, [&](const swashplate_command_t& command) {
     const std::lock_guard<std::mutex> lock(mutex);
     received.push_back(command);
   });
@@ -76,7 +78,7 @@ TEST(LcmBridge, handsCommandsOnUnchanged) {
   command.lateral_cyclic = -0.02;
   command.longitudinal_cyclic = std::numeric_limits<double>::quiet_NaN();  // judged elsewhere
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-  ASSERT_EQ(sender.publish(LcmBridge::kCommandChannel, &command), 0);
+  ASSERT_EQ(sender.publish(RotorBridge::kCommandChannel, &command), 0);
   while (bridge.received() == 0 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
   bridge.stop();
   ASSERT_EQ(received.size(), 1u);
@@ -91,11 +93,11 @@ TEST(LcmBridge, aProviderThatFailsIsAProblemAndTriedAgainWithoutSpinning) {
   swashplate_command_t command{};
   {
     lcm::LCM writer("file://" + file + "?mode=w");
-    ASSERT_EQ(writer.publish(LcmBridge::kCommandChannel, &command), 0);
+    ASSERT_EQ(writer.publish(RotorBridge::kCommandChannel, &command), 0);
   }
   RotorRing ring(4);
   const auto begin = std::chrono::steady_clock::now();
-  LcmBridge bridge("file://" + file + "?speed=0", ring, 0, [](const swashplate_command_t&) {});
+  RotorBridge bridge("file://" + file + "?speed=0", ring, 0, [](const swashplate_command_t&) {});
   EXPECT_EQ(bridge.problem(), "");
   bridge.start();
   while (bridge.receiveErrors() < 5 && std::chrono::steady_clock::now() < begin + std::chrono::seconds(10)) std::this_thread::yield();
@@ -111,7 +113,7 @@ TEST(LcmBridge, aProviderThatFailsIsAProblemAndTriedAgainWithoutSpinning) {
 TEST(LcmBridge, saysWhichUrlCannotBeOpened) {
   RotorRing ring(4);
   try {
-    LcmBridge bridge("nosuchprovider://1.2.3.4", ring, 0, nullptr);
+    RotorBridge bridge("nosuchprovider://1.2.3.4", ring, 0, nullptr);
     FAIL() << "opened";
   } catch (const LcmError& error) {
     EXPECT_NE(std::string(error.what()).find("nosuchprovider://1.2.3.4"), std::string::npos) << error.what();

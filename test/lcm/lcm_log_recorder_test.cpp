@@ -10,6 +10,8 @@
 namespace heerk_rotor {
 namespace {
 
+using RotorRecorder = LcmLogRecorder<RotorInstant>;
+
 struct LcmLog : ::testing::Test {
   std::string file = (std::filesystem::temp_directory_path() / ("heerk_rotor_log_" + std::to_string(getpid()) + ".lcm")).string();
   void TearDown() override { std::filesystem::remove(file); }
@@ -37,7 +39,7 @@ struct LcmLog : ::testing::Test {
 TEST_F(LcmLog, holdsEveryInstantInOrder) {
   RotorRing ring(64);
   std::atomic<bool> stop{false};
-  LcmLogRecorder recorder(file, ring, 7000000000, 5000);
+  RotorRecorder recorder(file, ring, 7000000000, 5000);
   recorder.start();
   for (std::uint64_t k = 0; k < 5000; ++k) ring.pushWaiting(instant(k), stop);
   recorder.stop();
@@ -51,13 +53,13 @@ TEST_F(LcmLog, holdsEveryInstantInOrder) {
     ASSERT_EQ(messages[k].lag[3], 0.5 * static_cast<double>(k));
   }
   // The estimate of the space needed is right within a quarter.
-  EXPECT_NEAR(static_cast<double>(std::filesystem::file_size(file)) / 5000.0, LcmLogRecorder::kBytesPerEvent, 0.25 * LcmLogRecorder::kBytesPerEvent);
+  EXPECT_NEAR(static_cast<double>(std::filesystem::file_size(file)) / 5000.0, LcmLogPacker<RotorInstant>::kBytesPerInstant, 0.25 * LcmLogPacker<RotorInstant>::kBytesPerInstant);
 }
 
 TEST_F(LcmLog, aGapIsAProblemAndVisibleInTheFile) {
   RotorRing ring(4);
   for (std::uint64_t k = 0; k < 6; ++k) ring.push(instant(k));  // nobody reads yet: two are lost
-  LcmLogRecorder recorder(file, ring, 0, 10);
+  RotorRecorder recorder(file, ring, 0, 10);
   recorder.start();
   recorder.stop();
   EXPECT_NE(recorder.problem().find("gap, 2 steps were lost"), std::string::npos) << recorder.problem();
@@ -68,13 +70,13 @@ TEST_F(LcmLog, aGapIsAProblemAndVisibleInTheFile) {
 
 TEST_F(LcmLog, refusesAFileThatCannotBeWritten) {
   RotorRing ring(4);
-  EXPECT_THROW(LcmLogRecorder("/nonexistent_folder/log.lcm", ring, 0, 1), std::runtime_error);
+  EXPECT_THROW(RotorRecorder("/nonexistent_folder/log.lcm", ring, 0, 1), std::runtime_error);
 }
 
 TEST_F(LcmLog, refusesToStartWithoutRoomOnTheDisk) {
   RotorRing ring(4);
   try {
-    LcmLogRecorder recorder(file, ring, 0, 1e15);
+    RotorRecorder recorder(file, ring, 0, 1e15);
     FAIL() << "700 petabytes";
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("free on the disk, expected at least"), std::string::npos) << error.what();
@@ -85,7 +87,7 @@ TEST_F(LcmLog, aFullDiskIsAProblemAndTheRingIsStillEmptied) {
   if (!std::ofstream("/dev/full").is_open()) GTEST_SKIP() << "no /dev/full here";
   RotorRing ring(16);
   std::atomic<bool> stop{false};
-  LcmLogRecorder recorder("/dev/full", ring, 0, 100);
+  RotorRecorder recorder("/dev/full", ring, 0, 100);
   recorder.start();
   for (std::uint64_t k = 0; k < 1000; ++k) ASSERT_TRUE(ring.pushWaiting(instant(k), stop));
   recorder.stop();

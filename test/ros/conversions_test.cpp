@@ -43,7 +43,7 @@ const ros::Time kStamp(100, 5);
 TEST(RosConversions, rotorStateHoldsEveryField) {
   const RotorReading r = distinctReading();
   RotorState m;
-  toRotorState(r, kStamp, {"ros", 11, 12}, m);
+  toRotorState({r, CommandSource::kRos}, kStamp, {11, 12}, m);
   EXPECT_EQ(m.header.stamp, kStamp);
   EXPECT_EQ(m.header.frame_id, "hub_link");
   EXPECT_EQ(m.step, r.step);

@@ -29,14 +29,14 @@ TEST(NodeParameters, haveTheDefaultsOfTheInterface) {
   EXPECT_TRUE(warnings.empty());
   EXPECT_EQ(p.config, "/tmp/rotor.yaml");
   EXPECT_EQ(p.real_time_factor, 1.0);
-  EXPECT_EQ(p.publish_every, 4);
-  EXPECT_EQ(p.steps_per_wake, 1);
+  EXPECT_EQ(p.publish_every, 0);   // automatic
+  EXPECT_EQ(p.steps_per_wake, 0);
   EXPECT_EQ(p.command_timeout, 0.5);
   EXPECT_EQ(p.timeout_policy, TimeoutPolicy::kHold);
   EXPECT_FALSE(p.publish_clock);
   EXPECT_EQ(p.lcm_url, "udpm://239.255.76.67:7667?ttl=0");
   EXPECT_FALSE(p.lcm_url_given);
-  EXPECT_EQ(p.lcm_every, 1);
+  EXPECT_EQ(p.lcm_every, 0);
   EXPECT_EQ(p.lcm_log, "");
   EXPECT_EQ(p.lock_step, 0);
   EXPECT_EQ(p.duration, 0.0);
@@ -90,7 +90,7 @@ TEST(NodeParameters, reportEverythingWrongAtOnce) {
   values["set"] = "a=b";
   values["duration"] = "long";
   const std::string text = problemsOf(values);
-  for (const char* expected : {"~config is missing", "~real_time_factor = -1: expected a number >= 0", "~publish_every = 2.5: expected an integer in [1, 1000000]",
+  for (const char* expected : {"~config is missing", "~real_time_factor = -1: expected a number >= 0", "~publish_every = 2.5: expected an integer in [0, 1000000]",
                                "~priority = 100: expected an integer in [0, 99]", "~publish_clock = yes: expected true or false",
                                "~timeout_policy = tri: expected hold or trim (did you mean 'trim'?)", "~lcm_url = 5: expected a text", "~set = a=b: expected a list",
                                "~duration = long: expected a number >= 0 [s]"})

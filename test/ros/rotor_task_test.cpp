@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "heerk_rotor/assembly/build_simulation.hpp"
+#include "heerk_rotor/realtime/instant_feed.hpp"
 #include "heerk_rotor/ros/failure_report.hpp"
 #include "heerk_rotor/ros/rotor_geometry.hpp"
 
@@ -19,8 +20,8 @@ using Result = StepTask::Result;
 struct Task : ::testing::Test {
   Configuration configuration = Configuration::load(HEERK_SOURCE_DIR "/config/lag_rotor_controlled.yaml", {"subsystems.swashplate.trim_collective=0.17"});
   std::unique_ptr<Simulation> simulation = buildSimulation(configuration);
-  RotorView view{simulation->system()};
-  CommandLimits limits = readCommandLimits(configuration, simulation->system(), view);
+  CommandView commands{simulation->system()};
+  CommandLimits limits = readCommandLimits(configuration, simulation->system(), commands);
   int arrived = 0;
   CommandInput input{limits, false, [this] { ++arrived; }};
   RotorRing ring{4096};
@@ -28,9 +29,9 @@ struct Task : ::testing::Test {
 
   static RotorTask::Options options() { return {}; }
   /// Into `instant`.
-  bool readNewest(RotorTask& task) {
+  bool readNewest(RotorFeed& feed) {
     RotorPicture picture;
-    if (!task.newest().read(picture)) return false;
+    if (!feed.newest().read(picture)) return false;
     instant = picture.instant;
     return true;
   }
@@ -42,10 +43,11 @@ struct Task : ::testing::Test {
 };
 
 TEST_F(Task, handsEveryNthStepToItsReaders) {
-  RotorTask task(*simulation, view, input, options());
+  RotorFeed feed(simulation->system(), 20);
+  RotorTask task(*simulation, feed, commands, input, options());
   RotorRing third(4096);
-  task.addRing(ring, 1);
-  task.addRing(third, 3);
+  feed.addRing(ring, 1);
+  feed.addRing(third, 3);
   for (int k = 0; k < 30; ++k) ASSERT_EQ(task.step(), Result::kOk);
   const auto all = drain();
   ASSERT_EQ(all.size(), 30u);
@@ -55,13 +57,14 @@ TEST_F(Task, handsEveryNthStepToItsReaders) {
     ASSERT_TRUE(third.pop(instant));
     EXPECT_EQ(instant.reading.step, 3 * k);
   }
-  ASSERT_TRUE(readNewest(task));
+  ASSERT_TRUE(readNewest(feed));
   EXPECT_EQ(instant.reading.step, 29u);
 }
 
 TEST_F(Task, aCommandIsInEffectFromTheNextStepAndNamesItsSource) {
-  RotorTask task(*simulation, view, input, options());
-  task.addRing(ring, 1);
+  RotorFeed feed(simulation->system(), 20);
+  RotorTask task(*simulation, feed, commands, input, options());
+  feed.addRing(ring, 1);
   task.step();
   EXPECT_TRUE(input.accept(std::vector<double>{0.12, 0.01, -0.02}, CommandSource::kRosArray));
   EXPECT_EQ(arrived, 1);
@@ -73,11 +76,12 @@ TEST_F(Task, aCommandIsInEffectFromTheNextStepAndNamesItsSource) {
   EXPECT_EQ(all[1].reading.collective, 0.12);
   EXPECT_EQ(all[1].reading.lateral_cyclic, 0.01);
   EXPECT_EQ(all[1].reading.longitudinal_cyclic, -0.02);
-  EXPECT_EQ(simulation->system().defaultCommand()[view.collectiveCommand()], 0.17);
+  EXPECT_EQ(simulation->system().defaultCommand()[commands.collective()], 0.17);
 }
 
 TEST_F(Task, refusedCommandsChangeNothingAndAreCounted) {
-  RotorTask task(*simulation, view, input, options());
+  RotorFeed feed(simulation->system(), 20);
+  RotorTask task(*simulation, feed, commands, input, options());
   EXPECT_FALSE(input.accept(std::vector<double>{0.1, 0.0}, CommandSource::kRosArray));
   EXPECT_FALSE(input.accept(std::array<double, 3>{NAN, 0.0, 0.0}, CommandSource::kLcm));
   EXPECT_TRUE(input.accept(std::array<double, 3>{9.0, 0.0, 0.0}, CommandSource::kLcm));
@@ -94,18 +98,20 @@ TEST_F(Task, holdKeepsAnOldCommandAndTrimGoesBack) {
     RotorTask::Options o = options();
     o.command_timeout = 1e-9;  // everything is too old at once
     o.timeout_policy = policy;
-    RotorTask task(*fresh, view, input, o);
+    RotorFeed feed(fresh->system(), 20);
+    RotorTask task(*fresh, feed, commands, input, o);
     input.accept(std::array<double, 3>{0.1, 0.0, 0.0}, CommandSource::kRos);
     task.step();
-    ASSERT_TRUE(readNewest(task));
+    ASSERT_TRUE(readNewest(feed));
     EXPECT_EQ(instant.source, policy == TimeoutPolicy::kHold ? CommandSource::kRos : CommandSource::kTimeout);
     EXPECT_EQ(instant.reading.collective, policy == TimeoutPolicy::kHold ? 0.1 : 0.17);
   }
 }
 
 TEST_F(Task, showsTheSameInstantOnlyOnce) {
-  RotorTask task(*simulation, view, input, options());
-  task.addRing(ring, 1);
+  RotorFeed feed(simulation->system(), 20);
+  RotorTask task(*simulation, feed, commands, input, options());
+  feed.addRing(ring, 1);
   task.step();
   task.showPresent();
   task.showPresent();
@@ -123,8 +129,9 @@ TEST_F(Task, showsTheSameInstantOnlyOnce) {
 TEST_F(Task, finishesWithTheLastInstantShown) {
   RotorTask::Options o = options();
   o.last_step = 5;
-  RotorTask task(*simulation, view, input, o);
-  task.addRing(ring, 1);
+  RotorFeed feed(simulation->system(), 20);
+  RotorTask task(*simulation, feed, commands, input, o);
+  feed.addRing(ring, 1);
   for (int k = 0; k < 4; ++k) ASSERT_EQ(task.step(), Result::kOk);
   EXPECT_EQ(task.step(), Result::kFinished);
   EXPECT_EQ(drain().back().reading.step, 5u);
@@ -134,8 +141,9 @@ TEST_F(Task, inLockStepEachCommandIsWorthItsSteps) {
   CommandInput queue(limits, true, [] {});
   RotorTask::Options o = options();
   o.lock_step = 3;
-  RotorTask task(*simulation, view, queue, o);
-  task.addRing(ring, 1);
+  RotorFeed feed(simulation->system(), 20);
+  RotorTask task(*simulation, feed, commands, queue, o);
+  feed.addRing(ring, 1);
   EXPECT_FALSE(task.ready());
   queue.accept(std::array<double, 3>{0.11, 0.0, 0.0}, CommandSource::kRos);
   queue.accept(std::array<double, 3>{0.12, 0.0, 0.0}, CommandSource::kRos);
@@ -157,10 +165,11 @@ TEST_F(Task, aLockStepBatchEndsWithAnInstantForEveryReaderWhateverItsShare) {
   CommandInput queue(limits, true, [] {});
   RotorTask::Options o = options();
   o.lock_step = 10;
-  RotorTask task(*simulation, view, queue, o);
+  RotorFeed feed(simulation->system(), 20);
+  RotorTask task(*simulation, feed, commands, queue, o);
   RotorRing sparse(4096);
-  task.addRing(ring, 4);  // 10 is no multiple of 4
-  task.addRing(sparse, 1000);
+  feed.addRing(ring, 4);  // 10 is no multiple of 4
+  feed.addRing(sparse, 1000);
   for (int batch = 1; batch <= 3; ++batch) {
     queue.accept(std::array<double, 3>{0.1 + 0.01 * batch, 0.0, 0.0}, CommandSource::kRos);
     while (task.ready()) ASSERT_EQ(task.step(), Result::kOk);
@@ -176,10 +185,11 @@ TEST_F(Task, aLockStepBatchEndsWithAnInstantForEveryReaderWhateverItsShare) {
 }
 
 TEST_F(Task, aSparseReaderGetsAnInstantThatOnlyOthersHaveSeenOnceItIsAskedFor) {
-  RotorTask task(*simulation, view, input, options());
+  RotorFeed feed(simulation->system(), 20);
+  RotorTask task(*simulation, feed, commands, input, options());
   RotorRing sparse(8);
-  task.addRing(ring, 1);
-  task.addRing(sparse, 1000);
+  feed.addRing(ring, 1);
+  feed.addRing(sparse, 1000);
   ASSERT_EQ(task.step(), Result::kOk);
   simulation->observe(simulation->system().defaultCommand());  // step 1, as a step that then fails in a later stage does
   EXPECT_EQ(ring.size(), 2u);
@@ -194,13 +204,14 @@ TEST_F(Task, aSparseReaderGetsAnInstantThatOnlyOthersHaveSeenOnceItIsAskedFor) {
 }
 
 TEST_F(Task, theSpeedCommandIsLatchedHeldAndOutlivesASwashplateTimeout) {
-  HeldInput speed(simulation->system(), "speed command", view.speedCommand(), {"rad/s"});
-  const Index entry = view.speedCommand().at(0);
+  HeldInput speed(simulation->system(), "speed command", commands.speed(), {"rad/s"});
+  const Index entry = commands.speed().at(0);
   ASSERT_TRUE(speed.present());
   RotorTask::Options o = options();
   o.command_timeout = 1e-9;
   o.timeout_policy = TimeoutPolicy::kTrim;
-  RotorTask task(*simulation, view, input, o);
+  RotorFeed feed(simulation->system(), 20);
+  RotorTask task(*simulation, feed, commands, input, o);
   task.addInput(speed);
   double in_effect = 0.0;
   struct Watch : Observer {
@@ -236,54 +247,53 @@ TEST_F(Task, theSpeedCommandIsLatchedHeldAndOutlivesASwashplateTimeout) {
 }
 
 TEST_F(Task, startingOverAndResuming) {
-  RotorTask task(*simulation, view, input, options());
+  RotorFeed feed(simulation->system(), 20);
+  RotorTask task(*simulation, feed, commands, input, options());
   input.accept(std::array<double, 3>{0.1, 0.0, 0.0}, CommandSource::kRos);
   task.step();
   task.startOver();
   task.step();
-  ASSERT_TRUE(readNewest(task));
+  ASSERT_TRUE(readNewest(feed));
   EXPECT_EQ(instant.reading.collective, 0.17);
   EXPECT_EQ(instant.source, CommandSource::kNone);
   Vector w = simulation->system().defaultCommand();
-  w[view.collectiveCommand()] = 0.08;
+  w[commands.collective()] = 0.08;
   task.resume(w);
   task.step();
-  ASSERT_TRUE(readNewest(task));
+  ASSERT_TRUE(readNewest(feed));
   EXPECT_EQ(instant.reading.collective, 0.08);
   EXPECT_EQ(instant.source, CommandSource::kSnapshot);
   EXPECT_STREQ(name(instant.source), "snapshot");
   input.accept(std::array<double, 3>{0.1, 0.0, 0.0}, CommandSource::kRos);
   task.step();
-  ASSERT_TRUE(readNewest(task));
+  ASSERT_TRUE(readNewest(feed));
   EXPECT_EQ(instant.source, CommandSource::kRos);
 }
 
 TEST_F(Task, theHistoryBeginsAnewWithAResetAndALoadedState) {
-  RotorTask::Options o = options();
-  o.history = 20;
-  RotorTask task(*simulation, view, input, o);
+  RotorFeed feed(simulation->system(), 20);
+  RotorTask task(*simulation, feed, commands, input, options());
   for (int k = 0; k < 50; ++k) task.step();
   const auto checkpoint = simulation->checkpoint();
   simulation->reset();
   task.startOver();
-  EXPECT_TRUE(task.history().empty());
+  EXPECT_TRUE(feed.history().empty());
   for (int k = 0; k < 3; ++k) task.step();
-  ASSERT_EQ(task.history().size(), 3u);
-  EXPECT_EQ(task.history().front().reading.epoch, 1u);
+  ASSERT_EQ(feed.history().size(), 3u);
+  EXPECT_EQ(feed.history().front().reading.epoch, 1u);
   simulation->restore(checkpoint, true);
   task.resume(checkpoint.w);
-  EXPECT_TRUE(task.history().empty());
+  EXPECT_TRUE(feed.history().empty());
   task.step();
-  ASSERT_EQ(task.history().size(), 1u);
-  EXPECT_EQ(task.history().front().reading.epoch, 2u);
+  ASSERT_EQ(feed.history().size(), 1u);
+  EXPECT_EQ(feed.history().front().reading.epoch, 2u);
 }
 
 TEST_F(Task, theHistoryHoldsTheLastInstantsAndItsFileHasOneRowEach) {
-  RotorTask::Options o = options();
-  o.history = 20;
-  RotorTask task(*simulation, view, input, o);
+  RotorFeed feed(simulation->system(), 20);
+  RotorTask task(*simulation, feed, commands, input, options());
   for (int k = 0; k < 50; ++k) task.step();
-  const auto history = task.history();
+  const auto history = feed.history();
   ASSERT_EQ(history.size(), 20u);
   for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(history[i].reading.step, 30 + i);
 
@@ -308,7 +318,7 @@ TEST_F(Task, theHistoryHoldsTheLastInstantsAndItsFileHasOneRowEach) {
 TEST_F(Task, limitsAndGeometryComeFromTheConfiguration) {
   const Configuration narrow = Configuration::load(HEERK_SOURCE_DIR "/config/lag_rotor_controlled.yaml",
                                                    {"subsystems.swashplate.collective_max=0.2", "subsystems.swashplate.cyclic_limit=0.1", "subsystems.airloads.radius=4.5"});
-  const CommandLimits l = readCommandLimits(narrow, simulation->system(), view);
+  const CommandLimits l = readCommandLimits(narrow, simulation->system(), commands);
   EXPECT_EQ(l.collective_max, 0.2);
   EXPECT_EQ(l.cyclic_limit, 0.1);
   EXPECT_EQ(l.collective_min, -0.0524);

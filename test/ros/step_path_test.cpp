@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "heerk_rotor/assembly/build_simulation.hpp"
+#include "heerk_rotor/realtime/instant_feed.hpp"
 #include "heerk_rotor/realtime/real_time_loop.hpp"
 #include "heerk_rotor/ros/rotor_geometry.hpp"
 #include "heerk_rotor/ros/rotor_task.hpp"
@@ -30,25 +31,25 @@ TEST(StepPath, makesNoHeapCallInAHundredThousandPacedStepsWithCommandsArriving) 
   constexpr std::uint64_t kSteps = 100000;
   const Configuration configuration = Configuration::load(HEERK_SOURCE_DIR "/config/lag_rotor_controlled.yaml");
   const std::unique_ptr<Simulation> simulation = buildSimulation(configuration);
-  RotorView view(simulation->system());
+  const CommandView commands(simulation->system());
+  RotorFeed feed(simulation->system(), 361);
   RealTimeLoop* waking = nullptr;
-  CommandInput input(readCommandLimits(configuration, simulation->system(), view), false, [&] { waking->wake(); });
-  HeldInput speed(simulation->system(), "speed command", view.speedCommand(), {"rad/s"});
+  CommandInput input(readCommandLimits(configuration, simulation->system(), commands), false, [&] { waking->wake(); });
+  HeldInput speed(simulation->system(), "speed command", commands.speed(), {"rad/s"});
   ASSERT_TRUE(speed.present());
   RotorTask::Options options;
-  options.history = 361;
   options.timeout_policy = TimeoutPolicy::kTrim;
   options.command_timeout = 0.005;  // time-outs happen as well
   options.last_step = kSteps;
-  RotorTask task(*simulation, view, input, options);
+  RotorTask task(*simulation, feed, commands, input, options);
   task.addInput(speed);
   RotorRing every(1024), fourth(1024), log(1024);
   EagerClock clock;
   RealTimeLoop loop(task, clock, {simulation->stepSize(), 1.0, 1, 0});
   waking = &loop;
-  task.addRing(every, 1);
-  task.addRing(fourth, 4);
-  task.addLosslessRing(log, loop.stopRequested());
+  feed.addRing(every, 1);
+  feed.addRing(fourth, 4);
+  feed.addLosslessRing(log, loop.stopRequested());
 
   // All that surrounds the step thread in the node; their own heap calls do not count.
   std::atomic<bool> done{false};
@@ -62,7 +63,7 @@ TEST(StepPath, makesNoHeapCallInAHundredThousandPacedStepsWithCommandsArriving) 
       }
       while (fourth.pop(instant)) {
       }
-      task.newest().read(picture);
+      feed.newest().read(picture);
     }
   });
   std::thread controller([&] {
@@ -100,12 +101,13 @@ TEST(StepPath, makesNoHeapCallWithElasticBladesAndDisturbances) {
   if (!test::heapIsCounted()) GTEST_SKIP() << "the heap cannot be counted here";
   const Configuration configuration = Configuration::load(HEERK_SOURCE_DIR "/config/bo105.yaml");
   const std::unique_ptr<Simulation> simulation = buildSimulation(configuration);
-  RotorView view(simulation->system());
-  CommandInput input(readCommandLimits(configuration, simulation->system(), view), false, [] {});
-  HeldInput wind(simulation->system(), "wind", view.windCommand(), {"m/s"});
-  HeldInput wrench(simulation->system(), "external wrench", view.externalWrenchCommand(), {"N", "N", "N", "N m"});
+  const CommandView commands(simulation->system());
+  RotorFeed feed(simulation->system(), 361);
+  CommandInput input(readCommandLimits(configuration, simulation->system(), commands), false, [] {});
+  HeldInput wind(simulation->system(), "wind", commands.wind(), {"m/s"});
+  HeldInput wrench(simulation->system(), "external wrench", commands.externalWrench(), {"N", "N", "N", "N m"});
   ASSERT_TRUE(wind.present() && wrench.present());
-  RotorTask task(*simulation, view, input, {});
+  RotorTask task(*simulation, feed, commands, input, {});
   task.addInput(wind);
   task.addInput(wrench);
   struct Watch : Observer {
@@ -123,24 +125,24 @@ TEST(StepPath, makesNoHeapCallWithElasticBladesAndDisturbances) {
     calls = heap.count();
   }
   EXPECT_EQ(calls, 0u);
-  const std::vector<Index>& w = view.windCommand();
+  const std::vector<Index>& w = commands.wind();
   EXPECT_EQ(watch.w[w[0]], -5.0);
   EXPECT_EQ(watch.w[w[1]], 1.0);
   EXPECT_EQ(watch.w[w[2]], 0.5);
-  const std::vector<Index>& f = view.externalWrenchCommand();
+  const std::vector<Index>& f = commands.externalWrench();
   EXPECT_EQ(watch.w[f[2]], 2000.0);
   EXPECT_EQ(watch.w[f[5]], 70.0);
 
   RotorPicture picture;
-  ASSERT_TRUE(task.newest().read(picture));
-  ASSERT_EQ(picture.blades.blades, 4);
-  ASSERT_EQ(picture.blades.sections, 10);
+  ASSERT_TRUE(feed.newest().read(picture));
+  ASSERT_EQ(picture.shape.blades, 4);
+  ASSERT_EQ(picture.shape.sections, 10);
   double lift = 0.0;
   for (int k = 0; k < 4; ++k)
-    for (int i = 0; i < 10; ++i) lift += static_cast<double>(picture.blades.section[k][i].load);
+    for (int i = 0; i < 10; ++i) lift += static_cast<double>(picture.shape.section[k][i].load);
   // Two revolutions after the start all of the thrust is air load but for what still accelerates blades and fuselage.
   EXPECT_NEAR(lift, picture.instant.reading.hub_force[2], 0.3 * lift);
-  const BladeShapes::Section& tip = picture.blades.section[0][9];
+  const BladeShapes::Section& tip = picture.shape.section[0][9];
   EXPECT_NEAR(tip.position[0], 4.91 - 0.5 * 0.383, 0.02);  // the middle of the outermost of ten segments from 1.08 m on
   EXPECT_GT(tip.position[2], 0.05);                        // coned
   EXPECT_GT(tip.chordwise[1], 0.98);                       // the leading edge forward

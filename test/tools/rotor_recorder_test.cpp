@@ -37,8 +37,8 @@ std::string refusal(const std::function<void()>& open) {
 TEST(RotorRecorders, refuseASystemWithoutRotorQuantities) {
   const TestFolder folder;
   const CoupledSystem system = smallSystem();
-  EXPECT_THROW(rotorViewFor(system), RecordError);
-  EXPECT_EQ(rotorViewFor(frozenRotor()).blades(), 4);
+  EXPECT_THROW(recordedKind(system), RecordError);
+  EXPECT_EQ(recordedKind(frozenRotor()), MachineKind::kRotor);
   for (const auto& open : {openBagRecorder, openLcmRecorder})
     EXPECT_NE(refusal([&] { open(folder.file("x"), system, {}); }), "(accepted)");
   EXPECT_FALSE(std::filesystem::exists(folder.file("x"))) << "a refused output must not leave a file";
@@ -55,7 +55,7 @@ TEST(RotorRecorders, sayWhyAFileCannotBeOpened) {
 TEST(RotorRecorders, doNotStartOnADiskThatIsNearlyFull) {
   const TestFolder folder;
   const CoupledSystem system = frozenRotor();
-  RotorRecording recording;
+  StateRecording recording;
   recording.disk_reserve = 1ull << 62;
   for (const auto& open : {openBagRecorder, openLcmRecorder}) {
     const std::string reason = refusal([&] { open(folder.file("x"), system, recording); });

@@ -22,6 +22,8 @@ struct BladeShapes {
   std::array<std::array<Section, kMaxSections>, kMaxBlades> section{};  // [blade][section], inboard first
 };
 
+bool isFinite(const BladeShapes& shapes) noexcept;
+
 /// Finds elastic blades in any coupled system, by the output ports section_position, section_axes, section_pitch and (if there
 /// is one) section_loads, laid out as models/rotor_sections.hpp says.
 class BladeShapeView {

@@ -1,9 +1,8 @@
 #pragma once
 #include <array>
-#include <string>
-#include <vector>
 
-#include "heerk_rotor/core/coupled_system.hpp"
+#include "heerk_rotor/assembly/command_view.hpp"
+#include "heerk_rotor/assembly/port_range.hpp"
 #include "heerk_rotor/integrate/simulation.hpp"
 
 namespace heerk_rotor {
@@ -33,38 +32,31 @@ struct RotorReading {
   std::uint32_t newton_iterations = 0, residual_evaluations = 0;           // spent since the previous step
 };
 
+/// True when every number that comes from the simulation is finite.
+bool isFinite(const RotorReading& reading) noexcept;
+
 /// Finds the quantities of a RotorReading in any coupled system, by output port name whatever subsystem offers them:
 ///   azimuth, rotor_speed, lag, lag_rate, flap, flap_rate, pitch, pitch_rate, tip_twist (one entry per blade),
 ///   hub_force (3), hub_moment (3), fuselage_position (3), fuselage_velocity (3), fuselage_orientation (4), fuselage_rates (3),
 ///   thrust_coefficient, torque_coefficient, power_coefficient, advance_ratio, inflow (any size),
-/// and the commands *.collective, *.lateral_cyclic, *.longitudinal_cyclic, *.speed, *.wind_x .. z, *.external_force_x .. z with
-/// *.external_moment_x .. z. What is absent stays zero (orientation: identity).
+/// and the swashplate's commands in effect (CommandView). What is absent stays zero (orientation: identity).
 class RotorView {
  public:
+  using Reading = RotorReading;
+
   /// Throws std::invalid_argument when two subsystems offer the same quantity or take the same command, or sizes disagree.
   explicit RotorView(const CoupledSystem& system);
 
   int blades() const { return blades_; }
-  bool hasSwashplate() const { return collective_ >= 0; }
-  /// Entries of w, or -1.
-  Index collectiveCommand() const { return collective_; }
-  Index lateralCyclicCommand() const { return lateral_cyclic_; }
-  Index longitudinalCyclicCommand() const { return longitudinal_cyclic_; }
-  /// Entries of w in the order of the message's components; empty when the system takes no such command.
-  const std::vector<Index>& speedCommand() const { return speed_; }                    // of the rotor [rad/s]
-  const std::vector<Index>& windCommand() const { return wind_; }                      // x, y, z over ground, in odom [m/s]
-  const std::vector<Index>& externalWrenchCommand() const { return external_wrench_; } // force, moment, in base_link [N], [N m]
 
   /// Allocation free.
   void read(const Sample& sample, RotorReading& reading) const noexcept;
 
  private:
-  struct Range { Index begin = -1, size = 0; };
-  Range azimuth_, rotor_speed_, lag_, lag_rate_, flap_, flap_rate_, pitch_, pitch_rate_, tip_twist_, hub_force_, hub_moment_,
+  PortRange azimuth_, rotor_speed_, lag_, lag_rate_, flap_, flap_rate_, pitch_, pitch_rate_, tip_twist_, hub_force_, hub_moment_,
       position_, velocity_, orientation_, rates_, thrust_coefficient_, torque_coefficient_, power_coefficient_,
       advance_ratio_, inflow_;
-  Index collective_ = -1, lateral_cyclic_ = -1, longitudinal_cyclic_ = -1;
-  std::vector<Index> speed_, wind_, external_wrench_;
+  CommandView commands_;
   int blades_ = 0;
 };
 

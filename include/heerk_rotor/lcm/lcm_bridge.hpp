@@ -8,7 +8,7 @@
 
 #include <lcm/lcm-cpp.hpp>
 
-#include "heerk_rotor/realtime/rotor_instant.hpp"
+#include "heerk_rotor/lcm/conversions.hpp"
 #include "heerk_rotor/swashplate_command_t.hpp"
 
 namespace heerk_rotor {
@@ -17,17 +17,18 @@ struct LcmError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Publishes every instant of a ring on channel ROTOR_STATE and hands arriving SWASHPLATE_COMMAND messages on, each on a
+/// Publishes every instant of a ring on its channel (ROTOR_STATE, SHAFT_STATE) and hands arriving SWASHPLATE_COMMAND messages on, each on a
 /// thread of its own. UDP may lose messages on the way without anybody noticing; the ring's losses are counted.
+template <class Instant>
 class LcmBridge {
  public:
-  static constexpr const char* kStateChannel = "ROTOR_STATE";
+  static constexpr const char* kStateChannel = LcmState<Instant>::kChannel;
   static constexpr const char* kCommandChannel = "SWASHPLATE_COMMAND";
   using CommandHandler = std::function<void(const swashplate_command_t&)>;
 
   /// `stamp_base`: stamp of simulation time 0 [ns]. `handler` (may be empty: no subscription) runs on the receiving thread.
   /// The ring must outlive the bridge. Throws LcmError when the provider cannot be opened or the channel not subscribed to.
-  LcmBridge(const std::string& url, RotorRing& ring, std::int64_t stamp_base, CommandHandler handler);
+  LcmBridge(const std::string& url, SnapshotRing<Instant>& ring, std::int64_t stamp_base, CommandHandler handler);
   ~LcmBridge();
 
   /// Steps that missed their deadline so far: a field of every message.
@@ -51,7 +52,7 @@ class LcmBridge {
 
   const std::string url_;
   lcm::LCM lcm_;
-  RotorRing& ring_;
+  SnapshotRing<Instant>& ring_;
   std::int64_t stamp_base_;  // [ns]
   CommandHandler handler_;
   std::function<std::uint64_t()> overruns_ = [] { return std::uint64_t{0}; };
@@ -60,5 +61,8 @@ class LcmBridge {
   std::atomic<bool> receive_failing_{false};
   std::atomic<std::uint64_t> published_{0}, failed_{0}, received_{0}, receive_errors_{0};
 };
+
+extern template class LcmBridge<RotorInstant>;
+extern template class LcmBridge<ShaftInstant>;
 
 }  // namespace heerk_rotor

@@ -10,12 +10,31 @@
 
 namespace heerk_rotor {
 
+/// What is known of a ring whatever it carries. Any thread may ask.
+class RingGauge {
+ public:
+  /// Values that wait for the reader (a moment ago).
+  std::size_t size() const noexcept {
+    const std::uint64_t tail = tail_.load(std::memory_order_acquire);  // first: head never falls behind it
+    return static_cast<std::size_t>(head_.load(std::memory_order_acquire) - tail);
+  }
+
+  /// Values lost because the ring was full.
+  std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
+
+ protected:
+  ~RingGauge() = default;
+  alignas(64) std::atomic<std::uint64_t> head_{0};  // written by the producer
+  std::atomic<std::uint64_t> dropped_{0};
+  alignas(64) std::atomic<std::uint64_t> tail_{0};  // written by the reader
+};
+
 /// A queue from one producing thread (the step thread) to one reading thread, without locks. When it is full,
 ///  - push() drops the new value and counts it: the producer never waits for a slow reader;
 ///  - pushWaiting() waits for space: for recorders in runs that are as fast as possible.
 /// The reader gets the values in the order they were pushed.
 template <class T>
-class SnapshotRing {
+class SnapshotRing : public RingGauge {
   static_assert(std::is_trivially_copyable<T>::value, "a value must be copied without running code");
 
  public:
@@ -63,15 +82,6 @@ class SnapshotRing {
     return pop(value);
   }
 
-  /// Any thread: number of values that wait for the reader (a moment ago).
-  std::size_t size() const noexcept {
-    const std::uint64_t tail = tail_.load(std::memory_order_acquire);  // first: head never falls behind it
-    return static_cast<std::size_t>(head_.load(std::memory_order_acquire) - tail);
-  }
-
-  /// Any thread: values lost because the ring was full.
-  std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
-
  private:
   static std::size_t roundUp(std::size_t n) {
     std::size_t power = 2;
@@ -82,9 +92,6 @@ class SnapshotRing {
 
   const std::size_t mask_;
   const std::unique_ptr<T[]> values_;
-  alignas(64) std::atomic<std::uint64_t> head_{0};  // written by the producer
-  std::atomic<std::uint64_t> dropped_{0};
-  alignas(64) std::atomic<std::uint64_t> tail_{0};  // written by the reader
   alignas(64) WakeUp filled_;
   WakeUp emptied_;
 };

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "heerk_rotor/realtime/rotor_instant.hpp"
+#include "heerk_rotor/realtime/instant.hpp"
 
 namespace heerk_rotor {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <string>
+#include <cstdint>
 
 #include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
@@ -9,18 +9,18 @@
 
 #include "heerk_rotor/BladeAngles.h"
 #include "heerk_rotor/RotorState.h"
-#include "heerk_rotor/assembly/rotor_view.hpp"
+#include "heerk_rotor/ShaftState.h"
+#include "heerk_rotor/realtime/instant.hpp"
 
 namespace heerk_rotor {
 
-/// Pure functions from a reading to ROS messages. They fill an existing message, so that a publisher that reuses it does
-/// not allocate in the steady state. Units and axes are those of RotorReading; only the arrangement changes.
+/// Pure functions from an instant or a reading to ROS messages. They fill an existing message, so that a publisher that reuses it does
+/// not allocate in the steady state. Units and axes are those of the reading; only the arrangement changes.
 
-/// What a RotorState says beyond the reading itself.
+/// What a state message says beyond the instant itself.
 struct PublisherNote {
-  std::string command_source = "none";  // none, ros, ros_array, lcm, timeout, snapshot (simulate: file)
-  std::uint64_t overruns = 0;           // steps that missed their deadline since the start
-  std::uint64_t dropped = 0;            // instants this publisher's ring lost since the start
+  std::uint64_t overruns = 0;  // steps that missed their deadline since the start
+  std::uint64_t dropped = 0;   // instants this publisher's ring lost since the start
 };
 
 /// Frame names of interface.md.
@@ -29,9 +29,12 @@ constexpr const char* kOdom = "odom";
 constexpr const char* kBase = "base_link";
 constexpr const char* kHub = "hub_link";
 constexpr const char* kRotor = "rotor_link";  // turns with the hub: child of rotor_joint, whose position is the azimuth
+constexpr const char* kShaft = "shaft_link";  // fixed in space: z along the shaft, y up
 }  // namespace frames
 
-void toRotorState(const RotorReading& reading, const ros::Time& stamp, const PublisherNote& note, RotorState& message);
+void toRotorState(const RotorInstant& instant, const ros::Time& stamp, const PublisherNote& note, RotorState& message);
+
+void toShaftState(const ShaftInstant& instant, const ros::Time& stamp, const PublisherNote& note, ShaftState& message);
 
 /// angle = lag, rate = lag_rate.
 void toLagAngles(const RotorReading& reading, const ros::Time& stamp, BladeAngles& message);

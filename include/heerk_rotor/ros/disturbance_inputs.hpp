@@ -4,7 +4,7 @@
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 
-#include "heerk_rotor/assembly/rotor_view.hpp"
+#include "heerk_rotor/assembly/command_view.hpp"
 #include "heerk_rotor/ros/held_input.hpp"
 
 namespace heerk_rotor {
@@ -16,7 +16,7 @@ namespace heerk_rotor {
 /// A stamped message may leave its frame empty; one in another frame is refused.
 class DisturbanceInputs {
  public:
-  DisturbanceInputs(const CoupledSystem& system, const RotorView& view);
+  DisturbanceInputs(const CoupledSystem& system, const CommandView& commands);
 
   void subscribe(ros::NodeHandle& node);
 

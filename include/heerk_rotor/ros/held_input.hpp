@@ -15,7 +15,7 @@ class HeldInput {
  public:
   static constexpr std::size_t kMaxSize = 6;
 
-  /// `name` as in warnings ("wind"); `entries` of w in the order of the components, as RotorView found them (none: not present()),
+  /// `name` as in warnings ("wind"); `entries` of w in the order of the components, as CommandView found them (none: not present()),
   /// whose ranges count; `units` of the components, the last one for all further ones.
   HeldInput(const CoupledSystem& system, const std::string& name, const std::vector<Index>& entries, const std::vector<std::string>& units);
 

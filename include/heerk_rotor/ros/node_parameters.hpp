@@ -17,14 +17,14 @@ struct NodeParameters {
   std::string config;                   // configuration file, absolute path; required
   std::vector<std::string> set;         // overrides "key=value" of the file, as simulate --set
   double real_time_factor = 1.0;        // simulated over real time; 0 = as fast as possible
-  int publish_every = 4;                // rotor/state and its companions every n-th step
-  int steps_per_wake = 1;               // steps per wake-up of the step thread; more: fewer wake-ups, coarser deadlines
+  int publish_every = 0;                // rotor/state (shaft/state) and its companions every n-th step; 0 = automatic (automatic_rates.hpp)
+  int steps_per_wake = 0;               // steps per wake-up of the step thread; more: fewer wake-ups, coarser deadlines; 0 = automatic
   double command_timeout = 0.5;         // age by arrival at which a swashplate command is stale [s]; 0 = never
   TimeoutPolicy timeout_policy = TimeoutPolicy::kHold;
   bool publish_clock = false;           // publish /clock and stamp with simulation time
   std::string lcm_url;                  // LCM provider; empty = off. Default: kDefaultLcmUrl, which may fail with a warning
   bool lcm_url_given = false;           // another one than the default: it must work
-  int lcm_every = 1;                    // ROTOR_STATE every n-th step
+  int lcm_every = 0;                    // ROTOR_STATE (SHAFT_STATE) every n-th step; 0 = automatic
   std::string lcm_log;                  // LCM event log of every step; empty = none
   int priority = 80;                    // SCHED_FIFO priority of the step thread; 0 = normal scheduling
   int lock_step = 0;                    // n: advance n steps per received command; 0 = run freely

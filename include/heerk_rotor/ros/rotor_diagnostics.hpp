@@ -10,6 +10,7 @@
 
 #include "heerk_rotor/integrate/simulation.hpp"
 #include "heerk_rotor/realtime/real_time_loop.hpp"
+#include "heerk_rotor/realtime/snapshot_ring.hpp"
 #include "heerk_rotor/ros/command_input.hpp"
 #include "heerk_rotor/ros/rotor_task.hpp"
 
@@ -24,7 +25,7 @@ class RotorDiagnostics {
   struct Reader {
     std::string name;
     std::function<std::uint64_t()> delivered;
-    const RotorRing* ring;
+    const RingGauge* ring;
     std::function<std::string()> problem = {};  // not empty: an error (a recording with a gap)
   };
 

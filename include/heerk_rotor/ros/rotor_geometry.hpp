@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "heerk_rotor/assembly/rotor_view.hpp"
+#include "heerk_rotor/assembly/command_view.hpp"
 #include "heerk_rotor/config/configuration.hpp"
 #include "heerk_rotor/core/coupled_system.hpp"
 #include "heerk_rotor/ros/command_gate.hpp"
@@ -28,6 +28,6 @@ struct RotorGeometry {
 RotorGeometry readRotorGeometry(const Configuration& configuration);
 
 /// Travel of the swashplate that takes the collective command; the model's defaults for what the configuration leaves out.
-CommandLimits readCommandLimits(const Configuration& configuration, const CoupledSystem& system, const RotorView& view);
+CommandLimits readCommandLimits(const Configuration& configuration, const CoupledSystem& system, const CommandView& commands);
 
 }  // namespace heerk_rotor

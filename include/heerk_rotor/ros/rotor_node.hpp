@@ -7,26 +7,22 @@
 #include <std_msgs/Float64MultiArray.h>
 
 #include "heerk_rotor/SwashplateCommand.h"
-#include "heerk_rotor/assembly/rotor_view.hpp"
+#include "heerk_rotor/assembly/command_view.hpp"
 #include "heerk_rotor/config/configuration.hpp"
 #include "heerk_rotor/integrate/simulation.hpp"
 #include "heerk_rotor/realtime/real_time_loop.hpp"
 #include "heerk_rotor/ros/command_input.hpp"
 #include "heerk_rotor/ros/disturbance_inputs.hpp"
 #include "heerk_rotor/ros/node_parameters.hpp"
+#include "heerk_rotor/ros/outlets.hpp"
 #include "heerk_rotor/ros/rotor_diagnostics.hpp"
-#include "heerk_rotor/ros/rotor_geometry.hpp"
 #include "heerk_rotor/ros/rotor_services.hpp"
 #include "heerk_rotor/ros/rotor_task.hpp"
-#include "heerk_rotor/ros/state_publisher.hpp"
 #include "heerk_rotor/ros/trim_service.hpp"
-#include "heerk_rotor/ros/view_publisher.hpp"
 
 namespace heerk_rotor {
 
-class LcmLink;
-
-/// The node `rotor`: puts simulation, step thread, publishers, services and LCM together and watches over them.
+/// The node `rotor`: puts simulation, step thread, outlets and services together and watches over them.
 /// Threads: the step thread; state publisher; view publisher; LCM sender, receiver and log; roscpp's callbacks.
 class RotorNode {
  public:
@@ -47,28 +43,24 @@ class RotorNode {
   void stop();
   int exitStatus();
   RotorTask::Options taskOptions() const;
-  std::size_t ringCapacity(double seconds, int every) const;
 
   const NodeParameters parameters_;
   const Configuration configuration_;
   std::unique_ptr<Simulation> simulation_;
-  RotorView view_;
-  const RotorGeometry geometry_;
+  const CommandView commands_;
+  const Rates rates_;
   const StampBase stamps_;
   ros::NodeHandle node_, private_node_{"~"};
 
   CommandInput input_;
   DisturbanceInputs disturbances_;
+  const std::unique_ptr<Outlets> outlets_;
   RotorTask task_;
   MonotonicClock clock_;
   RealTimeLoop loop_;
-  RotorRing state_ring_;
-  StatePublisher state_publisher_;
-  ViewPublisher view_publisher_;
   RotorServices services_;
   TrimService trim_service_;
   RotorDiagnostics diagnostics_;
-  std::unique_ptr<LcmLink> lcm_;  // set at the end of construction, in a build without LCM as well
   std::vector<ros::Subscriber> subscribers_;
   ros::AsyncSpinner spinner_{2};  // ~step waits for its steps; the other services answer meanwhile
 

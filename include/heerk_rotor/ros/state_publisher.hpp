@@ -7,14 +7,14 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 
-#include "heerk_rotor/realtime/rotor_instant.hpp"
-#include "heerk_rotor/ros/conversions.hpp"
+#include "heerk_rotor/realtime/instant.hpp"
 #include "heerk_rotor/ros/stamp_base.hpp"
+#include "heerk_rotor/ros/state_topics.hpp"
 
 namespace heerk_rotor {
 
-/// Publishes every instant of its ring as rotor/state, rotor/lag_angles and rotor/hub_wrench (and /clock), on a thread of
-/// its own.
+/// Publishes every instant of its ring on the topics of its kind (and /clock), on a thread of its own.
+template <class Instant>
 class StatePublisher {
  public:
   struct Options {
@@ -24,7 +24,7 @@ class StatePublisher {
   };
 
   /// The ring must outlive the publisher.
-  StatePublisher(ros::NodeHandle& node, RotorRing& ring, const Options& options);
+  StatePublisher(ros::NodeHandle& node, SnapshotRing<Instant>& ring, const Options& options);
   ~StatePublisher();
 
   void start();
@@ -32,23 +32,20 @@ class StatePublisher {
   void stop();
 
   std::uint64_t published() const { return published_; }
-  const RotorRing& ring() const { return ring_; }
 
  private:
-  void publish(const RotorInstant& instant);
+  void publish(const Instant& instant);
 
-  RotorRing& ring_;
+  SnapshotRing<Instant>& ring_;
   const Options options_;
-  ros::Publisher state_, lag_, wrench_, clock_;
+  StateTopics<Instant> topics_;
+  ros::Publisher clock_;
   std::thread thread_;
   std::atomic<bool> stop_{false};
   std::atomic<std::uint64_t> published_{0};
-
-  // Reused, so that publishing does not allocate them anew.
-  PublisherNote note_;
-  RotorState state_message_;
-  BladeAngles lag_message_;
-  geometry_msgs::WrenchStamped wrench_message_;
 };
+
+extern template class StatePublisher<RotorInstant>;
+extern template class StatePublisher<ShaftInstant>;
 
 }  // namespace heerk_rotor

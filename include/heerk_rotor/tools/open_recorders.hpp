@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "heerk_rotor/assembly/rotor_view.hpp"
+#include "heerk_rotor/assembly/machine_kind.hpp"
+#include "heerk_rotor/realtime/command_source.hpp"
 #include "heerk_rotor/tools/recorder.hpp"
 #include "heerk_rotor/tools/run_setup.hpp"
 
@@ -15,23 +16,25 @@ using Recorders = std::vector<std::unique_ptr<Recorder>>;
 /// `signals` are the columns of .csv files. Throws ConfigurationError that lists every output that cannot be written.
 Recorders openRecorders(const SimulateOptions& options, RunSetup& setup, const std::vector<Signal>& signals);
 
-/// The rotor quantities that rotor messages are made of. Throws RecordError when the system has none, or offers one twice.
-RotorView rotorViewFor(const CoupledSystem& system);
+/// Which messages tell of the system. Throws RecordError when it is neither rotor nor shaft, or offers a quantity twice.
+MachineKind recordedKind(const CoupledSystem& system);
 
-/// What a recorder of rotor messages needs to know besides the system.
-struct RotorRecording {
+/// What a recorder of state messages needs to know besides the system.
+struct StateRecording {
   RecordGrid grid;
-  std::string command_source = "none";         // as in RotorState: "file" when commands come from one
-  std::uint64_t disk_reserve = 16u << 20;      // [bytes] recording ends when less is free
+  CommandSource command_source = CommandSource::kNone;  // kFile when commands come from one
+  std::uint64_t disk_reserve = 16u << 20;                // [bytes] recording ends when less is free
 };
 
-/// A rosbag with the node's topics: /rotor/state, /rotor/lag_angles and /rotor/hub_wrench for every recorded instant,
-/// /rotor/odom at 100 Hz, /tf and /joint_states at 60 Hz of simulation time (as far as instants are recorded).
+/// A rosbag with the node's topics. Of a rotor: /rotor/state, /rotor/lag_angles and /rotor/hub_wrench for every recorded instant,
+/// /rotor/odom at 100 Hz, /tf and /joint_states at 60 Hz of simulation time (as far as instants are recorded). Of a shaft:
+/// /shaft/state for every recorded instant.
 /// Stamps and bag time are simulation time + 1 s, because ROS takes the time 0 for "not set".
-/// Throws RecordError when the file cannot be opened, the build has no rosbag, or the system has no rotor quantities.
-std::unique_ptr<Recorder> openBagRecorder(const std::string& file, const CoupledSystem& system, const RotorRecording& recording);
+/// Throws RecordError when the file cannot be opened, the build has no rosbag, or the system is neither rotor nor shaft.
+std::unique_ptr<Recorder> openBagRecorder(const std::string& file, const CoupledSystem& system, const StateRecording& recording);
 
-/// An LCM event log with channel ROTOR_STATE; time stamps are simulation time. Errors as for openBagRecorder.
-std::unique_ptr<Recorder> openLcmRecorder(const std::string& file, const CoupledSystem& system, const RotorRecording& recording);
+/// An LCM event log as ~lcm_log of the node: channel ROTOR_STATE, or SHAFT_STATE_BATCH; time stamps are simulation time. Errors
+/// as for openBagRecorder.
+std::unique_ptr<Recorder> openLcmRecorder(const std::string& file, const CoupledSystem& system, const StateRecording& recording);
 
 }  // namespace heerk_rotor

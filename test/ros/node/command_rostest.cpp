@@ -173,13 +173,13 @@ TEST_F(Commands, overLcmTheyCountLikewiseAndTheLatestArrivalWins) {
   lcm::LCM lcm(url);
   swashplate_command_t command{};
   command.collective = 0.13;
-  ASSERT_EQ(lcm.publish(LcmBridge::kCommandChannel, &command), 0);
+  ASSERT_EQ(lcm.publish(LcmBridge<RotorInstant>::kCommandChannel, &command), 0);
   ASSERT_TRUE(states.waitForLast([](const RotorState& s) { return s.command_source == "lcm"; }));
   EXPECT_EQ(states.last().collective, 0.13);
   send(0.14, 0.0, 0.0);
   ASSERT_TRUE(states.waitForLast([](const RotorState& s) { return s.command_source == "ros"; }));
   EXPECT_EQ(states.last().collective, 0.14);
-  ASSERT_EQ(lcm.publish(LcmBridge::kCommandChannel, &command), 0);
+  ASSERT_EQ(lcm.publish(LcmBridge<RotorInstant>::kCommandChannel, &command), 0);
   ASSERT_TRUE(states.waitForLast([](const RotorState& s) { return s.command_source == "lcm"; }));
 }
 

@@ -14,14 +14,14 @@ namespace heerk_rotor {
 class OfflineRun : public Observer {
  public:
   explicit OfflineRun(const std::string& file, const std::vector<std::string>& overrides = {})
-      : simulation_(buildSimulation(Configuration::load(file, overrides))), view_(simulation_->system()), w_(simulation_->system().defaultCommand()) {
+      : simulation_(buildSimulation(Configuration::load(file, overrides))), view_(simulation_->system()), commands_(simulation_->system()), w_(simulation_->system().defaultCommand()) {
     simulation_->addObserver(*this);
   }
 
   void command(double collective, double lateral_cyclic, double longitudinal_cyclic) {
-    w_[view_.collectiveCommand()] = collective;
-    w_[view_.lateralCyclicCommand()] = lateral_cyclic;
-    w_[view_.longitudinalCyclicCommand()] = longitudinal_cyclic;
+    w_[commands_.collective()] = collective;
+    w_[commands_.lateralCyclic()] = lateral_cyclic;
+    w_[commands_.longitudinalCyclic()] = longitudinal_cyclic;
   }
 
   double stepSize() const { return simulation_->stepSize(); }
@@ -38,6 +38,7 @@ class OfflineRun : public Observer {
  private:
   std::unique_ptr<Simulation> simulation_;
   RotorView view_;
+  CommandView commands_;
   Vector w_;
   RotorReading reading_;
 };
