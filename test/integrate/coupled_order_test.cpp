@@ -37,7 +37,10 @@ TEST(CoupledOrder, everyMethodHasItsOrderInBothFormulations) {
         const double h = expected > 2 ? problem.step : problem.step / 8;
         const double coarse = error(h), fine = error(h / 2), order = std::log2(coarse / fine);
         report("order of " + method + ", " + formulation + ", K_s " + std::to_string(static_cast<long>(problem.stiffness)), order);
-        EXPECT_NEAR(order, expected, 0.1) << method << ", " << formulation << ", K_s " << problem.stiffness << ", errors " << coarse << ", " << fine;
+        // The predictor's share of the precise methods' error falls faster than that of their quadrature.
+        const double more = method.rfind("precise", 0) == 0 ? 0.7 : 0.1;
+        EXPECT_GE(order, expected - 0.1) << method;
+        EXPECT_LE(order, expected + more) << method << ", " << formulation << ", K_s " << problem.stiffness << ", errors " << coarse << ", " << fine;
       }
     }
   }
