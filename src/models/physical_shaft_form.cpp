@@ -18,11 +18,11 @@ ShaftForm physicalShaftForm(const ShaftMatrices& shaft, double omega) {
   form.force.setZero(2 * m, m);
   form.force.bottomRows(m) = mass.solve(ShaftMatrix::Identity(m, m)).cast<double>();
   form.energy.setZero(2 * m, 2 * m);
-  ShaftMatrix root = stiffness.matrixU();
-  root = stiffness.vectorD().cwiseMax(ShaftReal(0)).cwiseSqrt().asDiagonal() * root * stiffness.transpositionsP();
-  form.energy.topLeftCorner(m, m) = root.cast<double>();
-  const ShaftMatrix upper = mass.matrixU();
-  form.energy.bottomRightCorner(m, m) = upper.cast<double>();
+  const ShaftMatrix permutation = stiffness.transpositionsP() * ShaftMatrix::Identity(m, m);
+  const ShaftMatrix mass_root = mass.matrixU(), unit_root = stiffness.matrixU();
+  const ShaftMatrix stiffness_root = stiffness.vectorD().cwiseMax(ShaftReal(0)).cwiseSqrt().asDiagonal() * ShaftMatrix(unit_root * permutation);
+  form.energy.topLeftCorner(m, m) = stiffness_root.cast<double>();
+  form.energy.bottomRightCorner(m, m) = mass_root.cast<double>();
   form.start.setZero(2 * m);
   form.S = SecondOrderStiff{mass.solve(shaft.K).cast<double>(), mass.solve(shaft.C - static_cast<ShaftReal>(omega) * shaft.G).cast<double>()};
 
