@@ -2,6 +2,7 @@
 #include <complex>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include <Eigen/LU>
 
@@ -33,11 +34,19 @@ ComplexVector steadyResponse(const EnergyCoordinates& energy, const ShaftMatrice
   return A.partialPivLu().solve(ComplexVector(square * load));
 }
 
+DiagonalForm diagonalised(const ShaftMatrix& H) {
+  try {
+    return diagonalForm(H);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(std::string(error.what()) + "; expected other damping, or coordinates: physical");
+  }
+}
+
 }  // namespace
 
 ShaftForm modalShaftForm(const ShaftMatrices& shaft, double omega) {
   const EnergyCoordinates energy = energyCoordinates(shaft, omega);
-  const DiagonalForm modes = diagonalForm(energy.H);
+  const DiagonalForm modes = diagonalised(energy.H);
   const ComplexVector steady = steadyResponse(energy, shaft, modes, omega);
   const Eigen::Index m = shaft.size(), n = 2 * m;  // pairs, coordinates without the phasor
 

@@ -133,7 +133,7 @@ Vector extrapolated(const std::vector<Vector>& x) {
 }
 
 TEST(DualDiscReference, longRunEndsOnTheSteadyOrbit) {
-  // At 40000 rpm slow precession is hardly damped: what a second has left of it is extrapolated from eight instants, 0.012 s apart (a whole
+  // At 40000 rpm the slow backward precession, 120 rad/s, decays with 1.2 1/s only: what a second has left of it is extrapolated from eight instants, 0.012 s apart (a whole
   // number of revolutions at both speeds), and once more from there.
   constexpr double kStep = 5e-6;
   const long between = std::lround(0.012 / kStep);
