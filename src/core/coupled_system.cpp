@@ -1,5 +1,6 @@
 #include "heerk_rotor/core/coupled_system.hpp"
 
+#include <cstdint>
 #include <cstring>
 #include <stdexcept>
 
@@ -69,10 +70,15 @@ bool CoupledSystem::gather(Index number, const Vector& y, const Vector& w, Vecto
   const double* first = sources > 0 ? y.data() + input.source_begin[0]
                                     : input.command >= 0 ? w.data() + input.command : input.default_value.data();
   if (sources <= 1) {
-    const std::size_t bytes = static_cast<std::size_t>(input.size) * sizeof(double);
-    if (std::memcmp(target, first, bytes) == 0) return false;
-    std::memcpy(target, first, bytes);
-    return true;
+    std::uint64_t changed = 0;  // bits; inputs are short, library calls would cost more than they do
+    for (Index i = 0; i < input.size; ++i) {
+      std::uint64_t before, after;
+      std::memcpy(&before, target + i, sizeof before);
+      std::memcpy(&after, first + i, sizeof after);
+      changed |= before ^ after;
+      target[i] = first[i];
+    }
+    return changed != 0;
   }
   bool changed = false;
   for (Index i = 0; i < input.size; ++i) {

@@ -44,39 +44,46 @@ DiagonalForm diagonalised(const ShaftMatrix& H) {
 
 }  // namespace
 
-ShaftForm modalShaftForm(const ShaftMatrices& shaft, double omega) {
+ShaftForm modalShaftForm(const ShaftMatrices& shaft, double omega, bool unbalance_inside) {
   const EnergyCoordinates energy = energyCoordinates(shaft, omega);
   const DiagonalForm modes = diagonalised(energy.H);
-  const ComplexVector steady = steadyResponse(energy, shaft, modes, omega);
-  const Eigen::Index m = shaft.size(), n = 2 * m;  // pairs, coordinates without the phasor
+  const Eigen::Index m = shaft.size(), n = 2 * m;                    // pairs, coordinates without the phasor
+  const Eigen::Index phasor = unbalance_inside ? 1 : 0, pairs = m + phasor;  // pairs with it
 
   // eta = T z + Re(steady) cos - Im(steady) sin, columns in the order of the states.
-  ShaftMatrix eta(n, n + 2);
-  eta << modes.T.leftCols(m), steady.real(), modes.T.rightCols(m), -steady.imag();
-
+  ShaftMatrix eta(n, 2 * pairs);
+  eta.leftCols(m) = modes.T.leftCols(m);
+  eta.middleCols(pairs, m) = modes.T.rightCols(m);
+  ComplexVector steady = ComplexVector::Zero(n);
   ShaftForm form;
-  form.phasor_cos = m;
-  form.phasor_sin = n + 1;
+  if (unbalance_inside) {
+    steady = steadyResponse(energy, shaft, modes, omega);
+    form.phasor_cos = m;
+    form.phasor_sin = n + 1;
+    eta.col(form.phasor_cos) = steady.real();
+    eta.col(form.phasor_sin) = -steady.imag();
+  }
   form.observe = (energy.to_physical * eta).cast<double>();
   form.energy = eta.cast<double>();
   const Matrix force = (modes.inverse * energy.from_force).cast<double>();
-  form.force.setZero(n + 2, m);
+  form.force.setZero(2 * pairs, m);
   form.force.topRows(m) = force.topRows(m);
-  form.force.middleRows(m + 1, m) = force.bottomRows(m);
+  form.force.middleRows(pairs, m) = force.bottomRows(m);
   const Vector start = -(modes.inverse * steady.real()).cast<double>();
-  form.start.setZero(n + 2);
+  form.start.setZero(2 * pairs);
   form.start.head(m) = start.head(m);
-  form.start.segment(m + 1, m) = start.tail(m);
-  form.start[form.phasor_cos] = 1.0;
+  form.start.segment(pairs, m) = start.tail(m);
+  if (unbalance_inside) form.start[form.phasor_cos] = 1.0;
 
   PairStiff S;
   S.blocks.assign(modes.blocks.begin(), modes.blocks.end());
-  S.blocks.push_back((Eigen::Matrix2d() << 0.0, -omega, omega, 0.0).finished());
+  if (unbalance_inside) S.blocks.push_back((Eigen::Matrix2d() << 0.0, -omega, omega, 0.0).finished());
   form.S = std::move(S);
 
   for (const char* part : {"re", "im"}) {
     for (Eigen::Index i = 1; i <= m; ++i)
-      form.states.push_back({"mode_" + std::to_string(i) + "_" + part, "sqrt(J)", "whirl mode at nominal speed, counted from the steady unbalance response"});
+      form.states.push_back({"mode_" + std::to_string(i) + "_" + part, "sqrt(J)", unbalance_inside ? "whirl mode at nominal speed, counted from the steady unbalance response" : "whirl mode at nominal speed"});
+    if (!unbalance_inside) continue;
     const bool real = form.states.size() == static_cast<std::size_t>(m);
     form.states.push_back({real ? "nominal_cos" : "nominal_sin", "-", real ? "cos of Omega t" : "sin of Omega t"});
   }

@@ -18,8 +18,8 @@ struct ShaftForm {
   Index phasor_sin = -1;      // -1: the unbalance is not in S
 };
 
-/// Eigenvectors of the shaft at nominal speed, counted from the steady unbalance response. Throws std::exception when there is no such form.
-ShaftForm modalShaftForm(const ShaftMatrices& shaft, double rotor_speed);
+/// Eigenvectors of the shaft at nominal speed; with the unbalance inside S counted from the steady response to it. Throws std::exception when there is no such form.
+ShaftForm modalShaftForm(const ShaftMatrices& shaft, double rotor_speed, bool unbalance_inside);
 
 /// Displacements, then their rates.
 ShaftForm physicalShaftForm(const ShaftMatrices& shaft, double rotor_speed);

@@ -267,7 +267,7 @@ std::unique_ptr<SubsystemModel> makeShaftRotorModel(const ShaftRotorParameters& 
       const Eigen::Index row = shaftRow(p.journals.front(), dof);
       stiff.C(row, row) += p.linearised_film_damping;
     }
-  return std::make_unique<ShaftRotor>(p, shaft, p.modal ? modalShaftForm(stiff, p.rotor_speed) : physicalShaftForm(stiff, p.rotor_speed));
+  return std::make_unique<ShaftRotor>(p, shaft, p.modal ? modalShaftForm(stiff, p.rotor_speed, p.unbalance_in_exponential) : physicalShaftForm(stiff, p.rotor_speed));
 }
 
 }  // namespace heerk_rotor

@@ -57,9 +57,9 @@ std::vector<double> readTable(Section& section, const std::string& key, double f
 
 }  // namespace
 
-ShaftRotorParameters readShaftRotorParameters(Section& section, double rotor_speed) {
+ShaftRotorParameters readShaftRotorParameters(Section& section, const SimulationSettings& simulation) {
   ShaftRotorParameters p;
-  p.rotor_speed = rotor_speed;
+  p.rotor_speed = simulation.rotor_speed;
   ShaftProperties& shaft = p.shaft;
   const std::size_t problems = section.problems().list().size();
   if (!section.has("segments")) section.problem("segments", "the length of each finite element from node 0 on [m], as a list");
@@ -76,6 +76,8 @@ ShaftRotorParameters readShaftRotorParameters(Section& section, double rotor_spe
   shaft.bearings = readBearings(section.child("bearings"), shaft.nodes());
   p.journals = readNodes(section, "journals", shaft.nodes());
   p.modal = section.word("coordinates", "modal", {"modal", "physical"}) == "modal";
+  // As states of S, cos and sin of the azimuth are as exact as the method's treatment of S: Newmark's would drift in phase.
+  p.unbalance_in_exponential = section.flag("unbalance_in_exponential", simulation.integrator != "Newmark");
   p.linearised_film_damping = section.number("linearised_film_damping", 0.0, "N s/m", nonNegative());
   if (p.linearised_film_damping > 0.0 && p.journals.empty()) section.problem("linearised_film_damping", "0 where there are no journals");
   section.finish();
@@ -86,7 +88,7 @@ ShaftRotorParameters readShaftRotorParameters(Section& section, double rotor_spe
 
 Made makeShaftRotor(Section& section, const BuildContext& context) {
   const std::size_t problems = section.problems().list().size();
-  const ShaftRotorParameters p = readShaftRotorParameters(section, context.simulation.rotor_speed);
+  const ShaftRotorParameters p = readShaftRotorParameters(section, context.simulation);
   return section.problems().list().size() == problems ? makeShaftRotorModel(p) : nullptr;
 }
 

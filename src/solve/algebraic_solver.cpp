@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "broyden_memory.hpp"
 #include "heerk_rotor/core/coupling_graph.hpp"
@@ -45,11 +44,9 @@ struct AlgebraicSolver::Implementation {
   SolverCounters counters;
   std::vector<std::uint64_t> evaluations;
 
-  Vector y, u, g, last_x;                // g: latest evaluation of ports in loops
-  double last_t = 0.0;
-  bool solved_once = false;
+  Vector y, u, g;                        // g: latest evaluation of ports in loops
 
-  // Change stamps: a port is up to date when neither the stage nor one of its inputs changed since its evaluation.
+  // Change stamps: a port is up to date when it has been evaluated in this solve and none of its inputs changed since.
   std::uint64_t clock = 1, stage_stamp = 1;
   std::vector<std::uint64_t> input_stamp, output_stamp;
 
@@ -64,6 +61,14 @@ struct AlgebraicSolver::Implementation {
     for (const Index input : output.feedthrough) newest = std::max(newest, input_stamp[input]);
     if (output_stamp[port] >= newest) return;
     system.evalOutput(port, t, x, u, g.data() + output.begin);
+    output_stamp[port] = ++clock;
+    ++evaluations[output.subsystem];
+  }
+
+  /// A port outside the loops: once per solve, straight into y.
+  void evaluateOnce(Index port, double t, const Vector& x) noexcept {
+    const CoupledSystem::Output& output = system.outputs()[port];
+    system.evalOutput(port, t, x, u, y.data() + output.begin);
     output_stamp[port] = ++clock;
     ++evaluations[output.subsystem];
   }
@@ -263,26 +268,16 @@ struct AlgebraicSolver::Implementation {
 
   SolveReport solve(double t, const Vector& x, const Vector& w) noexcept {
     ++counters.solves;
-    const auto bytes = static_cast<std::size_t>(x.size()) * sizeof(double);
-    if (!solved_once || t != last_t || (bytes > 0 && std::memcmp(x.data(), last_x.data(), bytes) != 0)) {
-      stage_stamp = ++clock;
-      last_t = t;
-      if (bytes > 0) std::memcpy(last_x.data(), x.data(), bytes);
-      solved_once = true;
-    }
+    stage_stamp = ++clock;
     SolveReport worst;
     for (const EvaluationPlan::Item& item : plan.stage) {
       for (const Index input : item.inputs) gather(input, w);
       if (item.output >= 0) {
-        evaluate(item.output, t, x);
-        adopt(item.output);
+        evaluateOnce(item.output, t, x);
         continue;
       }
       const SolveReport report = solveLoop(static_cast<std::size_t>(item.loop), t, x, w);
-      if (report.status != SolveStatus::kConverged) {
-        solved_once = false;
-        return report;
-      }
+      if (report.status != SolveStatus::kConverged) return report;
       worst.iterations += report.iterations;
       if (report.error > worst.error) {
         worst.error = report.error;
@@ -300,7 +295,6 @@ AlgebraicSolver::AlgebraicSolver(CoupledSystem& system, const SolverOptions& opt
   s.plan = planEvaluation(system, t, x, w);
   s.y = s.g = Vector::Zero(system.outputSize());
   s.u = Vector::Zero(system.inputSize());
-  s.last_x = Vector::Zero(system.stateSize());
   s.input_stamp.assign(system.inputs().size(), 0);
   s.output_stamp.assign(system.outputs().size(), 0);
   s.evaluations.assign(system.subsystems().size(), 0);
@@ -352,8 +346,7 @@ SolveReport AlgebraicSolver::solve(double t, const Vector& x, const Vector& w) n
 void AlgebraicSolver::evalObserved(double t, const Vector& x, const Vector& w) noexcept {
   for (const EvaluationPlan::Item& item : impl_->plan.observed) {
     for (const Index input : item.inputs) impl_->gather(input, w);
-    impl_->evaluate(item.output, t, x);
-    impl_->adopt(item.output);
+    impl_->evaluateOnce(item.output, t, x);
   }
 }
 
@@ -391,7 +384,6 @@ void AlgebraicSolver::restoreCache(const std::vector<double>& cache) {
     }
     impl_->markUnknowns(l);
   }
-  impl_->solved_once = false;  // everything is evaluated again
 }
 
 }  // namespace heerk_rotor

@@ -5,7 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "heerk_rotor/analysis/step_warning.hpp"
 #include "heerk_rotor/tools/conclude_run.hpp"
+#include "heerk_rotor/tools/limit_watch.hpp"
 #include "heerk_rotor/tools/run_analyses.hpp"
 #include "heerk_rotor/tools/run_length.hpp"
 #include "heerk_rotor/tools/signal_selection.hpp"
@@ -36,16 +38,20 @@ int run(const SimulateOptions& options, RunSetup& setup) {
   Recorders recorders = openRecorders(options, setup, signals);
   warn(options, length.warning);
   warn(options, unusedSignals(options));
+  if (!options.quiet) warn(options, stepWarning(setup.configuration, simulation, setup.command, setup.settings.revolution(), length.steps));
 
   // The run.
   const StopRequest stop;
+  const LimitWatch limits(simulation, setup.settings.revolution());
   RecentInstants recent(simulation, setup.settings.revolution());
   ProgressBar progress(length.steps, simulation.stepSize(), !options.quiet);
   const StepCompanions companions = {&setup.command, commands ? &*commands : nullptr, &recorders, &recent, &progress};
   const RunSummary summary = runSteps(simulation, length.steps, companions);
 
   // Files, messages, exit status.
-  return concludeRun(options, setup, signals, companions, summary);
+  const int status = concludeRun(options, setup, signals, companions, summary);
+  for (const std::string& reached : limits.warnings()) warn(options, reached);
+  return status;
 }
 
 int analyseAndRun(const SimulateOptions& options) {

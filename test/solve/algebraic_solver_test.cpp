@@ -149,13 +149,18 @@ TEST(AlgebraicSolver, refreshesTheJacobianWhenContractionIsLost) {
   EXPECT_NEAR(solver.y()[0], 1.0 - 40.0 * std::exp(solver.y()[0]), 1e-11);
 }
 
-TEST(AlgebraicSolver, doesNotEvaluateAgainWhatDidNotChange) {
+TEST(AlgebraicSolver, evaluatesEachPortOnceWhereALoopIsSolvedAlready) {
   CoupledSystem system = partLoop();
   const Vector x = system.initialState();
   AlgebraicSolver solver(system, tight(), 0.0, x, kNone);
+  ASSERT_EQ(solver.solve(0.0, x, kNone).status, SolveStatus::kConverged);
   const auto before = solver.outputEvaluations();
-  ASSERT_EQ(solver.solve(0.0, x, kNone).status, SolveStatus::kConverged);  // the same instant
-  EXPECT_EQ(solver.outputEvaluations(), before);
+  ASSERT_EQ(solver.solve(0.0, x, kNone).status, SolveStatus::kConverged);  // the same instant: the start value is the solution
+  std::uint64_t evaluated = 0;
+  for (std::size_t k = 0; k < before.size(); ++k) evaluated += solver.outputEvaluations()[k] - before[k];
+  std::uint64_t ports = 0;
+  for (const CoupledSystem::Output& output : system.outputs()) ports += output.size > 0;
+  EXPECT_LE(evaluated, ports);  // the check after convergence and the ports behind the loop find all of them up to date
 }
 
 TEST(AlgebraicSolver, reportsALoopWithoutSolution) {

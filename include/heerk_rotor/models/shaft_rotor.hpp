@@ -8,17 +8,19 @@
 namespace heerk_rotor {
 
 class Section;
+struct SimulationSettings;
 
 struct ShaftRotorParameters {
   double rotor_speed = 0.0;              // Omega [rad/s]
   ShaftProperties shaft;
   std::vector<int> journals;             // nodes at which outside forces act
   bool modal = true;                     // coordinates: modal | physical
+  bool unbalance_in_exponential = true;  // modal only: the unbalance of nominal speed is part of S
   double linearised_film_damping = 0.0;  // moved into S at the first journal, given back by the remainder [N s/m]
 };
 
 /// Reads the section and records what is wrong.
-ShaftRotorParameters readShaftRotorParameters(Section& section, double rotor_speed);
+ShaftRotorParameters readShaftRotorParameters(Section& section, const SimulationSettings& simulation);
 
 /// Rotating shaft with rigid discs and linear bearings as finite elements, after Liu & Zhang's dual-disc rotor.
 ///
@@ -29,7 +31,7 @@ ShaftRotorParameters readShaftRotorParameters(Section& section, double rotor_spe
 ///
 /// States, modal: pairs of coordinates of the eigenvectors of H at nominal speed (energy coordinates, 80-bit arithmetic), counted from the
 /// steady response to the unbalance of nominal speed, and the phasor e^{i Omega t}, which drives that response. All of this is in S
-/// (PairStiff); the remainder holds journal forces, and with a drive off its nominal motion the differences of gyroscopic term and unbalance.
+/// (PairStiff; without unbalance_in_exponential, as for Newmark, the unbalance is in the remainder); the remainder holds journal forces, and with a drive off its nominal motion the differences of gyroscopic term and unbalance.
 /// States, physical: q, then q' (SecondOrderStiff); the unbalance is in the remainder. Both give the same outputs.
 /// linearised_film_damping: damping that belongs to a film outside may stand in S at the first journal; the remainder takes it off again.
 ///
