@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Prints the URDF of the configured rotor: urdf/fuselage.urdf scaled to its radius, with hub and blades.
+"""Prints the URDF of the configured rotor: urdf/fuselage.urdf scaled to its radius, with hub and blades; of a shaft with discs its frame.
 
 rotor_joint's position is the azimuth psi in the sense of rotation: 0 puts blade 1 over the tail. Blade frames: x outboard, z up; positive
 joint angles are flap up, lead, nose up, also on a clockwise rotor, whose blades follow each other the other way round. Blade 1 has the
@@ -121,6 +121,10 @@ def describe(rotor, fuselage):
     return xml.tostring(robot, encoding="unicode")
 
 
+def is_shaft(configuration):
+    return any(isinstance(s, dict) and s.get("type") == "shaft_rotor" for s in (configuration.get("subsystems") or {}).values())
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("config", help="configuration file")
@@ -130,6 +134,9 @@ def main():
         configuration = yaml.safe_load(pathlib.Path(arguments.config).read_text())
         for assignment in yaml.safe_load(arguments.set) or []:
             override(configuration, assignment)
+        if is_shaft(configuration):  # which the node draws (shaft/orbit)
+            print('<robot name="shaft"><link name="shaft_link"/></robot>')
+            return
         rotor = Rotor(configuration)
     except (OSError, yaml.YAMLError, ValueError, TypeError, KeyError, IndexError, AttributeError) as error:
         print(f"robot_description: {arguments.config}: {error}; drawing a usual rotor", file=sys.stderr)

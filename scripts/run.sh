@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs the rotor in real time with a live status line; Ctrl-C ends it.
+# Installs what is missing, builds, and runs the rotor or shaft in real time with a live status line; Ctrl-C ends it.
 # usage: run.sh [CONFIG] [--duration S] [--headless] [NAME:=VALUE]...
 #   CONFIG        configuration file, or the name of one in config/ (default: bo105)
 #   --duration S  end after S seconds

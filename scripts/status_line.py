@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Shows what the rotor node does: simulated time, real-time factor, overruns, thrust and lag amplitude.
+"""Shows what the node does: simulated time, real-time factor, overruns; thrust and lag amplitude, or disc amplitude and journal eccentricity.
 
 On a terminal one line is rewritten; otherwise a line is printed every few seconds. Warnings of the node appear above it.
 Exit status: 0 after --duration or Ctrl-C, 1 when the ROS master cannot be reached.
@@ -76,9 +76,12 @@ def rotor_text(entries):
 
 
 def shaft_text(entries):
+    """Amplitude: half the range of the disc that moves most, over the window; eccentricity in parts of the clearance."""
     last = entries[-1][1]
     orbit = max((half_range([m.disc_x[k] for _, m in entries if len(m.disc_x) > k]) for k in range(len(last.disc_x))), default=0.0)
-    return f"{timing_text(entries)} | {last.rotor_speed * 30 / math.pi:7.0f} rpm | disc amplitude {orbit * 1e6:7.2f} um"
+    eccentricity = max(m.eccentricity_ratio for _, m in entries)
+    return (f"{timing_text(entries)} | {last.rotor_speed * 30 / math.pi:7.0f} rpm | disc amplitude {orbit * 1e6:7.2f} um"
+            f" | journal eccentricity {last.eccentricity_ratio:5.3f} (most {eccentricity:5.3f})")
 
 
 class Display:
@@ -142,7 +145,7 @@ class Node:
         rotor, shaft = self.rotor.window(), self.shaft.window()
         if rotor:
             return rotor_text(rotor)
-        return shaft_text(shaft) if shaft else "waiting for rotor/state"
+        return shaft_text(shaft) if shaft else "waiting for rotor/state or shaft/state"
 
 
 def main():

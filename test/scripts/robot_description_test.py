@@ -56,6 +56,12 @@ class RobotDescription(unittest.TestCase):
         self.assertAlmostEqual(skid(small), -1.35, places=6)
         self.assertAlmostEqual(skid(large), -2.7, places=6)
 
+    def test_a_shaft_is_its_frame_only(self):
+        robot, said = describe("dual_disc.yaml")
+        self.assertEqual([link.get("name") for link in robot.findall("link")], ["shaft_link"])
+        self.assertEqual(robot.findall("joint"), [])
+        self.assertEqual(said, "")
+
     def test_what_cannot_be_read_is_left_to_the_node(self):
         for config, overrides in (("absent.yaml", "[]"), ("bo105.yaml", "['subsystems.nobody.x=1']"), ("bo105.yaml", "['subsystems.rotor.blades=99']")):
             robot, said = describe(config, overrides)
