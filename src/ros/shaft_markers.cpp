@@ -135,7 +135,7 @@ void toMarkers(const ShaftReading& reading, const ShaftShape& shape, const Orbit
   drawOrbits(trail, geometry, scale, drawing);
   drawText(reading, geometry, scale, drawing);
   for (std::size_t i = 0; i < geometry.bearings.size(); ++i)
-    drawing.next("bearings", static_cast<int>(i), Marker::CUBE, 0.8 * geometry.diameter, colour(0.55f, 0.57f, 0.6f, 0.8f)).pose.position = point(0.0, 0.0, geometry.bearings[i]);
+    drawing.next("bearings", static_cast<int>(i), Marker::CUBE, 0.7 * geometry.diameter, colour(0.55f, 0.57f, 0.6f, 0.35f)).pose.position = point(0.0, 0.0, geometry.bearings[i]);
   drawing.finish();
 }
 
