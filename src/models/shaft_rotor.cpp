@@ -1,5 +1,6 @@
 #include "heerk_rotor/models/shaft_rotor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <variant>
@@ -36,22 +37,35 @@ struct AddStiff {
 };
 
 /// Four outputs of all states, as the journal needs them in every stage: eight chains of sums hide the latency of the additions.
-void multiplyFourRows(const Rows& rows, const In& x, Out& y) noexcept {
-  using Lanes = Eigen::Array<double, 8, 1>;
-  using Load = Eigen::Map<const Lanes>;
-  const Index n = rows.cols(), whole = n - n % 8;
-  const double* a = rows.data();
-  Lanes sum[4] = {Lanes::Zero(), Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
-  for (Index j = 0; j < whole; j += 8) {
-    const Lanes x_j = Load(x.data() + j);
-    for (int i = 0; i < 4; ++i) sum[i] += Load(a + i * n + j) * x_j;
+class FourRows {
+ public:
+  FourRows() = default;
+  explicit FourRows(const Rows& rows) : blocks_((rows.cols() + kLanes - 1) / kLanes), last_(rows.cols() - kLanes) {
+    table_.setZero(4 * kLanes * blocks_);
+    for (Index j = 0; j < rows.cols(); ++j) {
+      const Index block = j / kLanes, lane = j - begin(block);
+      for (Index i = 0; i < 4; ++i) table_[kLanes * (4 * block + i) + lane] = rows(i, j);
+    }
   }
-  for (int i = 0; i < 4; ++i) {
-    double total = sum[i].sum();
-    for (Index j = whole; j < n; ++j) total += a[i * n + j] * x[j];
-    y[i] = total;
+  void multiply(const double* x, double* y) const noexcept {
+    Lanes sum[4] = {Lanes::Zero(), Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
+    const double* a = table_.data();
+    for (Index block = 0; block < blocks_; ++block) {
+      const Lanes x_block = Eigen::Map<const Lanes>(x + begin(block));
+      for (int i = 0; i < 4; ++i, a += kLanes) sum[i] += Eigen::Map<const Lanes>(a) * x_block;
+    }
+    for (int i = 0; i < 4; ++i) y[i] = sum[i].sum();
   }
-}
+
+ private:
+  static constexpr int kLanes = 8;
+  using Lanes = Eigen::Array<double, kLanes, 1>;
+  /// The last block overlaps the one before, with zeros there, instead of reading past the end. (The smallest shaft has 16 states.)
+  Index begin(Index block) const noexcept { return std::min(block * kLanes, last_); }
+
+  Index blocks_ = 0, last_ = 0;
+  Vector table_;  // [block][row][lane]
+};
 
 class ShaftRotor : public SubsystemModel {
  public:
@@ -72,7 +86,8 @@ class ShaftRotor : public SubsystemModel {
   struct Port {
     Kind kind;
     OutputPort declaration;
-    Rows rows;  // (size x N), kRows only
+    Rows rows;           // (size x N), kRows only
+    FourRows four_rows;  // the same, where there are four
   };
   /// (omega^2 - i omega') e^{i psi}, of which the unbalance columns take real and imaginary part; `less` times the phasor taken off.
   struct Rotating {
@@ -121,10 +136,13 @@ ShaftRotor::ShaftRotor(const ShaftRotorParameters& p, const ShaftMatrices& shaft
 
 void ShaftRotor::addRows(OutputPort declaration, const Matrix& of_motion) {
   declaration.size = of_motion.rows();
-  if (declaration.size > 0) ports_.push_back({Kind::kRows, std::move(declaration), of_motion * form_.observe});
+  if (declaration.size == 0) return;
+  Port port{Kind::kRows, std::move(declaration), of_motion * form_.observe, {}};
+  if (port.rows.rows() == 4) port.four_rows = FourRows(port.rows);
+  ports_.push_back(std::move(port));
 }
 
-void ShaftRotor::addScalar(Kind kind, OutputPort declaration) { ports_.push_back({kind, std::move(declaration), {}}); }
+void ShaftRotor::addScalar(Kind kind, OutputPort declaration) { ports_.push_back({kind, std::move(declaration), {}, {}}); }
 
 void ShaftRotor::addPorts(const ShaftMatrices& shaft) {
   const Index n = shaft.size();
@@ -212,7 +230,7 @@ void ShaftRotor::evalOutput(Index number, double t, const In& x, const In& u, Ou
   const Port& port = ports_[static_cast<std::size_t>(number)];
   switch (port.kind) {
     case Kind::kRows:
-      if (port.rows.rows() == 4) multiplyFourRows(port.rows, x, y);
+      if (port.rows.rows() == 4) port.four_rows.multiply(x.data(), y.data());
       else y.noalias() = port.rows * x;
       break;
     case Kind::kAzimuth: y[0] = p_.rotor_speed * t + u[kDriveAngle]; break;
