@@ -38,7 +38,9 @@ class Newmark final : public StepMethod {
     solveLinear(first_, last_);
     secants_.improve(last_);
     last_ = 2.0 * last_ - first_;
-    bool taken = false;  // step_ has been applied in this step
+    bool taken = false;      // step_ has been applied in this step
+    bool forgotten = false;  // the memory was cleared in this step
+    double first_size = 0.0;  // of the corrections
     double correction = std::numeric_limits<double>::infinity();
     for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
       next = x + 0.5 * h_ * (first_ + last_);
@@ -57,12 +59,16 @@ class Newmark final : public StepMethod {
       // Rounding in f, which loops of the system may amplify, can keep corrections above a very small tolerance: there they stop shrinking.
       const double before = correction;
       correction = relativeCorrection(x);
-      if (correction > before && before > kNoise * tolerance_) {  // misled by what was learned elsewhere: on from here with S alone
+      if (correction > before && before > kNoise * tolerance_ && !forgotten) {  // misled by what earlier steps taught: once, on from here with S alone
         secants_.clear();
         solveLinear(before_, step_);
         correction = std::numeric_limits<double>::infinity();
         taken = false;
+        forgotten = true;
       }
+      const double size = step_.norm();
+      if (iteration == 0) first_size = size;
+      if (!(size <= kDiverged * first_size)) break;
       last_ += step_;
       if (correction <= tolerance_ || (correction >= before && correction <= kNoise * tolerance_)) {
         next = x + 0.5 * h_ * (first_ + last_);
@@ -82,6 +88,7 @@ class Newmark final : public StepMethod {
  private:
   static constexpr int kMaxIterations = 50;  // a good step takes two or three
   static constexpr double kSmall = 1e-3;
+  static constexpr double kDiverged = 1e3;        // growth of the corrections
   static constexpr double kWorthLearning = 1e-9;  // relative correction; what smaller ones change is mostly rounding
   static constexpr double kNoise = 1e3;      // tolerances: corrections that do not shrink any more may be so large
   struct Piece {
