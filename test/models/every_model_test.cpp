@@ -34,7 +34,7 @@ std::vector<std::string> furtherParameters(const std::string& type) {
       {"mount", {", mode: rigid", ", mode: rigid, rotation: cw", ", mode: spring2", ", mode: spring2, rotation: cw", ", mode: spring6", ", mode: spring6, rotation: cw",
                  ", mode: free, rotation: cw"}},
       {"blade_airloads", {", virtual_mass: true", ", kinematics: small_angle"}},
-      {"shaft_rotor", {", coordinates: physical", ", shear: true, mass_damping: 3.0"}},
+      {"shaft_rotor", {", coordinates: physical", ", shear: true, mass_damping: 3.0", ", unbalance_in_exponential: false"}},
       {"squeeze_film_damper", {", film: full"}},
       {"speed_ramp", {", initial_speed_rpm: 100.0, acceleration_rpm_per_s: 300.0, start: 0.1"}},
       {"governed_drive", {", governor: false, engine_torque: 300.0"}},

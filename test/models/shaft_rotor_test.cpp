@@ -107,7 +107,7 @@ TEST(ShaftRotor, modalAndPhysicalCoordinatesGiveTheSameOutputsAndDerivatives) {
     for (Index i = 0; i < motion.size(); ++i) motion[i] = (i < both.matrices.size() ? 1e-5 : 1e-2) * unit(random);
     const Vector x = both.modalState(t, motion), f_modal = derivatives(*both.modal, t, x, u), f_physical = derivatives(*both.physical, t, motion, u);
     for (std::size_t port = 0; port < both.modal->outputs().size(); ++port) {
-      const OutputPort& declared = both.modal->outputs()[port];
+      const OutputPort declared = both.modal->outputs()[port];
       const Vector a = output(*both.modal, port, t, x, u), b = output(*both.physical, port, t, motion, u);
       worst_output = std::max(worst_output, (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff());
       EXPECT_LE((a - b).cwiseAbs().maxCoeff(), 1e-11 * b.cwiseAbs().maxCoeff()) << declared.name;

@@ -31,7 +31,8 @@ ShaftRotorParameters readShaftRotorParameters(Section& section, const Simulation
 ///
 /// States, modal: pairs of coordinates of the eigenvectors of H at nominal speed (energy coordinates, 80-bit arithmetic), counted from the
 /// steady response to the unbalance of nominal speed, and the phasor e^{i Omega t}, which drives that response. All of this is in S
-/// (PairStiff; without unbalance_in_exponential, as for Newmark, the unbalance is in the remainder); the remainder holds journal forces, and with a drive off its nominal motion the differences of gyroscopic term and unbalance.
+/// (PairStiff; without unbalance_in_exponential, as for Newmark, the unbalance is in the remainder); the remainder holds journal forces, and
+/// with a drive off its nominal motion the differences of gyroscopic term and unbalance.
 /// States, physical: q, then q' (SecondOrderStiff); the unbalance is in the remainder. Both give the same outputs.
 /// linearised_film_damping: damping that belongs to a film outside may stand in S at the first journal; the remainder takes it off again.
 ///
