@@ -61,7 +61,7 @@ TEST(RotorView, findsQuantitiesByNameWhateverSubsystemOffersThem) {
 TEST(RotorView, whatIsAbsentStaysZeroAndTheOrientationIdentity) {
   const CoupledSystem system = systemOf(Offering({{"lag", 4}}));
   const RotorView view(system);
-  EXPECT_FALSE(view.hasSwashplate());
+  EXPECT_FALSE(CommandView(system).hasSwashplate());
   EXPECT_EQ(view.blades(), 4);
   const RotorReading r = readOnce(system, Vector::Constant(4, 0.5), Vector());
   EXPECT_EQ(r.azimuth, 0.0);
