@@ -12,6 +12,7 @@
 #include <benchmark/benchmark.h>
 
 #include "heerk_rotor/assembly/build_simulation.hpp"
+#include "heerk_rotor/integrate/linear_propagator.hpp"
 
 namespace heerk_rotor {
 namespace {
