@@ -86,8 +86,8 @@ void RotorNode::start() {
   spinner_.start();
   trim_service_.start();
   ROS_INFO_STREAM("running " << configuration_.file() << ": " << simulation_->options().method << ", step " << simulation_->stepSize() << " s, real-time factor "
-                             << parameters_.real_time_factor << ", " << rates_.steps_per_wake << " steps per wake-up, every " << rates_.publish_every
-                             << " to ROS, every " << rates_.lcm_every << ". to LCM; step thread: " << scheduling);
+                             << parameters_.real_time_factor << ", " << rates_.steps_per_wake << " steps per wake-up, one in " << rates_.publish_every
+                             << " to ROS, one in " << rates_.lcm_every << " to LCM; step thread: " << scheduling);
 }
 
 int RotorNode::run() {

@@ -47,7 +47,7 @@ TEST_F(Shaft, everyPublishedStepArrivesOnceInOrderAndEqualsTheOfflineRun) {
   node.start();
   ASSERT_TRUE(states.waitForSize(1000)) << node.output();
   node.interrupt();
-  EXPECT_TRUE(node.says("40 steps per wake-up, every 100. to ROS, every 40. to LCM")) << node.output();
+  EXPECT_TRUE(node.says("40 steps per wake-up, one in 100 to ROS, one in 40 to LCM")) << node.output();
   const std::vector<ShaftState> all = states.messages();
   OfflineShaft offline(config);
   for (std::size_t i = 0; i < all.size(); ++i) {
