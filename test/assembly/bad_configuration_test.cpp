@@ -104,7 +104,7 @@ TEST_P(BadConfiguration, isRefusedWithOneProblemThatSaysWhereWhatAndWhy) {
 
 const Case kSimulationCases[] = {
     {"UnknownKey", "integrator:", "integratr:", "integratr", "simulation.integratr", "HEERK4", "a known key (did you mean 'integrator'?)"},
-    {"UnknownIntegrator", "HEERK4", "HERK5", "integrator", "simulation.integrator", "HERK5", "one of HERK4, HEERK2, HEERK3, HEERK4, ETDRK4 (did you mean 'HERK4'?)"},
+    {"UnknownIntegrator", "HEERK4", "HERK5", "integrator", "simulation.integrator", "HERK5", "one of HERK4, HEERK2, HEERK3, HEERK4, ETDRK4, Newmark, precise_1, precise_2 (did you mean 'HERK4'?)"},
     {"IntegratorIsAList", "HEERK4", "[HERK4]", "integrator", "simulation.integrator", "[HERK4]", "a word"},
     {"SpeedIsText", "41.0", "fast", "rotor_speed", "simulation.rotor_speed", "fast", "a number > 0 [rad/s]"},
     {"SpeedMissing", "  rotor_speed: 41.0\n", "", "simulation", "simulation.rotor_speed", "(missing)", "a number > 0 [rad/s]"},
