@@ -53,8 +53,12 @@ class PairPropagator final : public LinearPropagator {
   void combineLanes(RowPlan::Row range, const RowPlan::Columns& from, Index pair, double* __restrict result) const noexcept {
     using Lanes = Eigen::Array<double, N, 1>;
     using Load = Eigen::Map<const Lanes>;
-    Lanes q = Lanes::Zero(), v = Lanes::Zero();
-    for (int p = range.begin; p < range.end; ++p) {
+    // The first product of a row propagates the state alone. Beginning with it instead of with zeros keeps the sums in registers.
+    const double* c = table_.data() + 4 * pitch_ * plan_.products[range.begin].entry + pair;
+    const double* x = from.first(plan_.products[range.begin]) + pair;
+    Lanes q = Load(c) * Load(x) + Load(c + pitch_) * Load(x + pairs_);
+    Lanes v = Load(c + 2 * pitch_) * Load(x) + Load(c + 3 * pitch_) * Load(x + pairs_);
+    for (int p = range.begin + 1; p < range.end; ++p) {
       const RowPlan::Product& product = plan_.products[p];
       const double* a = from.first(product) + pair;
       Lanes a_q = Load(a), a_v = Load(a + pairs_);
@@ -62,7 +66,7 @@ class PairPropagator final : public LinearPropagator {
         a_q += Load(b + pair);
         a_v += Load(b + pairs_ + pair);
       }
-      const double* c = table_.data() + 4 * pitch_ * product.entry + pair;
+      c = table_.data() + 4 * pitch_ * product.entry + pair;
       q += Load(c) * a_q + Load(c + pitch_) * a_v;
       v += Load(c + 2 * pitch_) * a_q + Load(c + 3 * pitch_) * a_v;
     }

@@ -3,8 +3,10 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <limits>
 #include <sstream>
 
+#include "heerk_rotor/analysis/step_warning.hpp"
 #include "heerk_rotor/assembly/build_simulation.hpp"
 #include "heerk_rotor/ros/rotor_geometry.hpp"
 
@@ -78,6 +80,10 @@ void RotorNode::subscribeToCommands() {
 }
 
 void RotorNode::start() {
+  // Node runs have no length: the check may cost what it does, some hundred steps.
+  const double revolution = simulation_->options().revolution;
+  const std::string wrong = stepWarning(configuration_, *simulation_, simulation_->system().defaultCommand(), revolution, std::numeric_limits<std::uint64_t>::max());
+  if (!wrong.empty()) ROS_WARN_STREAM(wrong);
   outlets_->start();
   const RealTimeRights rights = loop_.start();
   if (!rights.complaint.empty()) ROS_WARN_STREAM("step thread without full real-time rights: " << rights.complaint);
