@@ -35,12 +35,11 @@ class PairPropagator final : public LinearPropagator {
     const RowPlan::Columns from = {x, remainders, stride};
     Index pair = 0;
     for (; pair + kLanes <= pairs_; pair += kLanes) combineLanes<kLanes>(range, from, pair, result);
-    // The rest as one block that reaches back over finished pairs, which get the same values again.
-    const Index left = pairs_ - pair;
-    if (left == 0) return;
-    if (left > 8 && pairs_ >= kLanes) return combineLanes<kLanes>(range, from, pairs_ - kLanes, result);
-    if (left > 4 && pairs_ >= 8) return combineLanes<8>(range, from, pairs_ - 8, result);
-    if (left > 1 && pairs_ >= 4) return combineLanes<4>(range, from, pairs_ - 4, result);
+    for (; pair + 8 <= pairs_; pair += 8) combineLanes<8>(range, from, pair, result);
+    // What is left as one block that reaches back over finished pairs, which get the same values again.
+    if (pairs_ - pair > 4 && pairs_ >= 8) return combineLanes<8>(range, from, pairs_ - 8, result);
+    for (; pair + 4 <= pairs_; pair += 4) combineLanes<4>(range, from, pair, result);
+    if (pairs_ - pair > 0 && pairs_ >= 4) return combineLanes<4>(range, from, pairs_ - 4, result);
     for (; pair < pairs_; ++pair) combineLanes<1>(range, from, pair, result);
   }
 

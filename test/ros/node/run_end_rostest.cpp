@@ -148,10 +148,10 @@ TEST(LockStep, advancesNStepsPerCommandAndWaitsForTheNext) {
 
 TEST(Parameters, thatAreWrongAreAllListedAndTheNodeEndsWithTwo) {
   NodeProcess node;
-  node.set("publish_every", 0).set("real_time_factor", std::string("fast")).set("timeout_policy", std::string("hodl")).set("publsh_clock", true);
+  node.set("publish_every", -1).set("real_time_factor", std::string("fast")).set("timeout_policy", std::string("hodl")).set("publsh_clock", true);
   node.start();
   EXPECT_EQ(node.waitForEnd(), 2);
-  EXPECT_TRUE(node.says("~publish_every = 0: expected an integer in [1, ")) << node.output();
+  EXPECT_TRUE(node.says("~publish_every = -1: expected an integer in [0, ")) << node.output();
   EXPECT_TRUE(node.says("~real_time_factor = fast: expected a number >= 0")) << node.output();
   EXPECT_TRUE(node.says("~timeout_policy = hodl: expected hold or trim")) << node.output();
 }
