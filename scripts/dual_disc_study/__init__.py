@@ -1,0 +1,1 @@
+"""The parts of scripts/paper_dual_disc.py."""
