@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "block_interpolant.hpp"
-#include "heerk_rotor/aero/branch_free_math.hpp"
+#include "heerk_rotor/core/branch_free_math.hpp"
 
 namespace heerk_rotor {
 namespace {

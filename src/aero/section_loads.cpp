@@ -4,8 +4,8 @@
 #include <type_traits>
 
 #include "heerk_rotor/aero/airfoil_table.hpp"
-#include "heerk_rotor/aero/branch_free_math.hpp"
 #include "heerk_rotor/aero/linear_polar.hpp"
+#include "heerk_rotor/core/branch_free_math.hpp"
 
 namespace heerk_rotor {
 namespace {

@@ -7,6 +7,9 @@
 #include "heerk_rotor/core/nearest_name.hpp"
 
 namespace heerk_rotor {
+namespace {
+constexpr Index kShort = 16;  // entries up to which a loop copies faster than the library
+}
 
 const Signal* CoupledSystem::findSignal(const std::string& name) const {
   for (const Signal& signal : signals_)
@@ -63,12 +66,26 @@ void CoupledSystem::setStart(std::vector<std::pair<Index, double>> states, const
   default_command_ = command;
 }
 
+const double* CoupledSystem::firstSource(const Input& input, const Vector& y, const Vector& w) const noexcept {
+  return !input.source_begin.empty() ? y.data() + input.source_begin[0] : input.command >= 0 ? w.data() + input.command : input.default_value.data();
+}
+
+void CoupledSystem::fetch(Index number, const Vector& y, const Vector& w, Vector& u) const noexcept {
+  const Input& input = inputs_[number];
+  const double* first = firstSource(input, y, w);
+  double* target = u.data() + input.begin;
+  if (input.size > kShort) std::memcpy(target, first, static_cast<std::size_t>(input.size) * sizeof(double));
+  else
+    for (Index i = 0; i < input.size; ++i) target[i] = first[i];
+  for (std::size_t k = 1; k < input.source_begin.size(); ++k)
+    for (Index i = 0; i < input.size; ++i) target[i] += y[input.source_begin[k] + i];
+}
+
 bool CoupledSystem::gather(Index number, const Vector& y, const Vector& w, Vector& u) const noexcept {
   const Input& input = inputs_[number];
   double* target = u.data() + input.begin;
   const std::size_t sources = input.source_begin.size();
-  const double* first = sources > 0 ? y.data() + input.source_begin[0]
-                                    : input.command >= 0 ? w.data() + input.command : input.default_value.data();
+  const double* first = firstSource(input, y, w);
   if (sources <= 1) {
     std::uint64_t changed = 0;  // bits; inputs are short, library calls would cost more than they do
     for (Index i = 0; i < input.size; ++i) {
@@ -96,18 +113,60 @@ void CoupledSystem::evalOutput(Index number, double t, const Vector& x, const Ve
   s.model->evalOutput(output.port, t, In(x.data() + s.x_begin, s.x_size), In(u.data() + s.u_begin, s.u_size), Out(result, output.size));
 }
 
+void CoupledSystem::evalRemainderOf(const Subsystem& s, double t, const In& x, const Vector& u, bool complete, double* remainder) noexcept {
+  const In us(u.data() + s.u_begin, s.u_size);
+  const Out out(remainder, s.x_size);
+  if (!complete && s.provides_remainder) {
+    s.model->evalRemainder(t, x, us, out);
+  } else {
+    s.model->evalDerivatives(t, x, us, out);
+    if (!complete && !std::holds_alternative<ZeroStiff>(s.stiff)) subtractStiff(s.stiff, x, In(out.data(), out.size()), out);
+  }
+}
+
 void CoupledSystem::evalRemainder(double t, const Vector& x, const Vector& u, bool complete, double* remainder) noexcept {
+  for (const Subsystem& s : subsystems_)
+    if (s.x_size > 0) evalRemainderOf(s, t, In(x.data() + s.x_begin, s.x_size), u, complete, remainder + s.x_begin);
+}
+
+void CoupledSystem::layOutStages() {
+  z_size_ = r_size_ = 0;
+  has_narrow_forms_ = false;
+  for (Subsystem& s : subsystems_) {
+    s.z_begin = z_size_;
+    s.r_begin = r_size_;
+    z_size_ += s.z_size = s.narrow ? s.narrow->C.rows() : s.x_size;
+    r_size_ += s.r_size = s.narrow ? s.narrow->B.cols() : s.x_size;
+    has_narrow_forms_ = has_narrow_forms_ || s.narrow;
+  }
+}
+
+void CoupledSystem::chooseNarrowForms(const std::vector<char>& needed) {
+  for (std::size_t i = 0; i < subsystems_.size(); ++i) {
+    Subsystem& s = subsystems_[i];
+    s.narrow = s.model->narrowForm();
+    for (std::size_t o = 0; o < outputs_.size(); ++o)
+      if (needed[o] && outputs_[o].subsystem == static_cast<Index>(i) && !s.model->narrowOutput(outputs_[o].port)) s.narrow = nullptr;
+  }
+  layOutStages();
+}
+
+void CoupledSystem::evalStageOutput(Index number, double t, const Vector& z, const Vector& u, double* result) noexcept {
+  const Output& output = outputs_[number];
+  const Subsystem& s = subsystems_[output.subsystem];
+  const In zs(z.data() + s.z_begin, s.z_size), us(u.data() + s.u_begin, s.u_size);
+  if (s.narrow) s.model->evalNarrowOutput(output.port, t, zs, us, Out(result, output.size));
+  else s.model->evalOutput(output.port, t, zs, us, Out(result, output.size));
+}
+
+bool CoupledSystem::evalStageRemainder(double t, const Vector& z, const Vector& u, double* r) noexcept {
   for (const Subsystem& s : subsystems_) {
     if (s.x_size == 0) continue;
-    const In xs(x.data() + s.x_begin, s.x_size), us(u.data() + s.u_begin, s.u_size);
-    const Out out(remainder + s.x_begin, s.x_size);
-    if (!complete && s.provides_remainder) {
-      s.model->evalRemainder(t, xs, us, out);
-    } else {
-      s.model->evalDerivatives(t, xs, us, out);
-      if (!complete && !std::holds_alternative<ZeroStiff>(s.stiff)) subtractStiff(s.stiff, xs, In(out.data(), out.size()), out);
-    }
+    const In zs(z.data() + s.z_begin, s.z_size);
+    if (!s.narrow) evalRemainderOf(s, t, zs, u, false, r + s.r_begin);
+    else if (!s.model->evalNarrowRemainder(t, zs, In(u.data() + s.u_begin, s.u_size), Out(r + s.r_begin, s.r_size))) return false;
   }
+  return true;
 }
 
 }  // namespace heerk_rotor

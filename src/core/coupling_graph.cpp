@@ -168,7 +168,7 @@ CoupledSystem CouplingGraph::build() && {
     first_input.push_back(static_cast<Index>(system.inputs_.size()));
     first_output.push_back(static_cast<Index>(system.outputs_.size()));
     CoupledSystem::Subsystem subsystem{entry.name, nullptr, entry.model->stiffPart(), entry.model->providesRemainder(),
-                                       system.x_size_, static_cast<Index>(entry.states.size()), system.u_size_, 0, system.y_size_, 0};
+                                       system.x_size_, static_cast<Index>(entry.states.size()), system.u_size_, 0, system.y_size_, 0, nullptr, 0, 0, 0, 0};
     for (const State& state : entry.states) initial.push_back(state.initial);
 
     for (std::size_t p = 0; p < entry.inputs.size(); ++p) {
@@ -224,6 +224,7 @@ CoupledSystem CouplingGraph::build() && {
   system.default_command_ = Eigen::Map<const Vector>(command.data(), static_cast<Index>(command.size()));
   system.command_low_ = Eigen::Map<const Vector>(low.data(), static_cast<Index>(low.size()));
   system.command_high_ = Eigen::Map<const Vector>(high.data(), static_cast<Index>(high.size()));
+  system.layOutStages();
   return system;
 }
 

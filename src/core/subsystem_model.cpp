@@ -8,6 +8,12 @@ void SubsystemModel::evalRemainder(double t, const In& x, const In& u, Out remai
   evalDerivatives(t, x, u, remainder);  // right for S = 0; a model with providesRemainder() overrides this
 }
 
+bool SubsystemModel::narrowOutput(Index) const { return false; }
+
+void SubsystemModel::evalNarrowOutput(Index, double, const In&, const In&, Out) noexcept {}
+
+bool SubsystemModel::evalNarrowRemainder(double, const In&, const In&, Out) noexcept { return false; }
+
 bool SubsystemModel::outputJacobian(Index, double, const In&, const In&, Eigen::Map<Matrix>) noexcept { return false; }
 
 void SubsystemModel::completeInitialState(const In&, Out) const {}

@@ -22,12 +22,17 @@ class MatrixPropagator final : public LinearPropagator {
   }
 
   void combine(int row, const double* x, const double* remainders, Index stride, double* result) const noexcept override {
-    const RowPlan::Row range = plan_.rows[row];
+    apply(plan_.rows[row], {x, remainders, stride}, result);
+  }
+
+  void propagate(int row, const double* x, double* result) const noexcept override { apply(plan_.stateOf(row), {x, nullptr, 0}, result); }
+
+ private:
+  void apply(RowPlan::Row range, const RowPlan::Columns& from, double* result) const noexcept {
     if (range.begin == range.end) {
-      std::copy_n(x, size_, result);
+      std::copy_n(from.x, size_, result);
       return;
     }
-    const RowPlan::Columns from = {x, remainders, stride};
     switch (size_) {
       case 1: return combineSmall<1>(range, from, result);
       case 2: return combineSmall<2>(range, from, result);
@@ -37,7 +42,6 @@ class MatrixPropagator final : public LinearPropagator {
     }
   }
 
- private:
   static constexpr Index kSmall = 4;
   static constexpr int kTile = 16;  // rows of a tile: with four columns in flight eight AVX-512 sums, enough to hide the latency of a FMA
 

@@ -1,6 +1,8 @@
+#include <optional>
 #include <vector>
 
 #include "heerk_rotor/integrate/linear_propagator.hpp"
+#include "narrow_stages.hpp"
 #include "step_method_kinds.hpp"
 
 namespace heerk_rotor {
@@ -11,9 +13,13 @@ namespace {
 class ExponentialRungeKutta final : public StepMethod {
  public:
   ExponentialRungeKutta(const Tableau& tableau, const CoupledSystem& system, double h)
-      : tableau_(tableau), h_(h), size_(system.stateSize()), stage_(Vector::Zero(size_)), remainders_(static_cast<std::size_t>(tableau.stages() * size_), 0.0) {
-    for (const CoupledSystem::Subsystem& subsystem : system.subsystems())
+      : tableau_(tableau), h_(h), size_(system.stateSize()), stage_(Vector::Zero(size_)), remainders_(Vector::Zero(tableau.stages() * size_)) {
+    std::vector<const LinearPropagator*> propagators;  // one per subsystem
+    for (const CoupledSystem::Subsystem& subsystem : system.subsystems()) {
       if (subsystem.x_size > 0) pieces_.push_back({subsystem.x_begin, makePropagator(subsystem.stiff, h, tableau)});
+      propagators.push_back(subsystem.x_size > 0 ? pieces_.back().propagator.get() : nullptr);
+    }
+    if (tableau.exponential && system.hasNarrowForms()) narrow_.emplace(system, tableau, propagators);
   }
 
   std::string name() const override { return tableau_.name; }
@@ -23,7 +29,12 @@ class ExponentialRungeKutta final : public StepMethod {
 
   Outcome advance(StageEvaluator& evaluate, double t, const Vector& x, Vector& next) noexcept override {
     const bool complete = !tableau_.exponential;
-    evaluate.atStart(complete, remainders_.data());
+    if (!narrow_ || !startNarrow(evaluate, x)) {
+      evaluate.atStart(complete, remainders_.data());
+    } else {
+      if (goOnNarrow(evaluate, t, x, next)) return Outcome::kDone;
+      if (!evaluate.at(t, x, complete, remainders_.data())) return Outcome::kStageFailed;  // the outputs at the start are gone
+    }
     for (int i = 1; i < tableau_.stages(); ++i) {
       combine(i, x, stage_);
       if (!evaluate.at(t + tableau_.c[static_cast<std::size_t>(i)] * h_, stage_, complete, remainders_.data() + i * size_)) return Outcome::kStageFailed;
@@ -38,6 +49,18 @@ class ExponentialRungeKutta final : public StepMethod {
     std::unique_ptr<LinearPropagator> propagator;
   };
 
+  bool startNarrow(StageEvaluator& evaluate, const Vector& x) noexcept {
+    narrow_->begin(x);
+    return evaluate.atStartNarrow(narrow_->stage(0), narrow_->remainder(0));
+  }
+
+  bool goOnNarrow(StageEvaluator& evaluate, double t, const Vector& x, Vector& next) noexcept {
+    for (int i = 1; i < tableau_.stages(); ++i)
+      if (!evaluate.atNarrow(t + tableau_.c[static_cast<std::size_t>(i)] * h_, narrow_->stage(i), narrow_->remainder(i))) return false;
+    narrow_->finish(x, next);
+    return true;
+  }
+
   void combine(int row, const Vector& x, Vector& result) const noexcept {
     for (const Piece& piece : pieces_) piece.propagator->combine(row, x.data() + piece.begin, remainders_.data() + piece.begin, size_, result.data() + piece.begin);
   }
@@ -47,7 +70,8 @@ class ExponentialRungeKutta final : public StepMethod {
   const Index size_;
   std::vector<Piece> pieces_;         // subsystems with states
   Vector stage_;
-  std::vector<double> remainders_;    // (stages x state size), one row per stage
+  Vector remainders_;                 // (stages x state size), one row per stage; aligned by Eigen, see types.hpp
+  std::optional<NarrowStages> narrow_;  // of a system that has narrow forms
 };
 
 }  // namespace

@@ -26,6 +26,10 @@ class BlockPropagator final : public LinearPropagator {
       piece.propagator->combine(row, x + piece.offset, remainders + piece.offset, stride, result + piece.offset);
   }
 
+  void propagate(int row, const double* x, double* result) const noexcept override {
+    for (const Piece& piece : pieces_) piece.propagator->propagate(row, x + piece.offset, result + piece.offset);
+  }
+
  private:
   std::vector<Piece> pieces_;
 };

@@ -27,12 +27,17 @@ class PairPropagator final : public LinearPropagator {
   }
 
   void combine(int row, const double* x, const double* remainders, Index stride, double* result) const noexcept override {
-    const RowPlan::Row range = plan_.rows[row];
+    apply(plan_.rows[row], {x, remainders, stride}, result);
+  }
+
+  void propagate(int row, const double* x, double* result) const noexcept override { apply(plan_.stateOf(row), {x, nullptr, 0}, result); }
+
+ private:
+  void apply(RowPlan::Row range, const RowPlan::Columns& from, double* result) const noexcept {
     if (range.begin == range.end) {
-      std::copy_n(x, 2 * pairs_, result);
+      std::copy_n(from.x, 2 * pairs_, result);
       return;
     }
-    const RowPlan::Columns from = {x, remainders, stride};
     Index pair = 0;
     for (; pair + kLanes <= pairs_; pair += kLanes) combineLanes<kLanes>(range, from, pair, result);
     for (; pair + 8 <= pairs_; pair += 8) combineLanes<8>(range, from, pair, result);
@@ -43,7 +48,6 @@ class PairPropagator final : public LinearPropagator {
     for (; pair < pairs_; ++pair) combineLanes<1>(range, from, pair, result);
   }
 
- private:
   static constexpr Index kLine = 8;  // doubles per cache line: a load must not straddle two
   static constexpr int kLanes = 16;  // two AVX-512 or four AVX registers per sum: enough independent chains to hide the latency
 

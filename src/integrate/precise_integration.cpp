@@ -14,7 +14,7 @@ class PreciseIntegration final : public StepMethod {
  public:
   PreciseIntegration(PreciseVariant variant, const CoupledSystem& system, double h)
       : variant_(variant), h_(h), size_(system.stateSize()), stage_(Vector::Zero(size_)), slope_(Vector::Zero(size_)), first_(Vector::Zero(size_)), sum_(Vector::Zero(size_)),
-        remainders_(static_cast<std::size_t>(4 * size_), 0.0) {
+        remainders_(Vector::Zero(4 * size_)) {
     for (const CoupledSystem::Subsystem& subsystem : system.subsystems())
       if (subsystem.x_size > 0) pieces_.push_back({subsystem.x_begin, makePrecisePiece(variant, subsystem.stiff, h)});
   }
@@ -68,7 +68,7 @@ class PreciseIntegration final : public StepMethod {
   const Index size_;
   std::vector<Piece> pieces_;       // subsystems with states
   Vector stage_, slope_, first_, sum_;
-  std::vector<double> remainders_;  // (4 x state size), one row per node
+  Vector remainders_;  // (4 x state size), one row per node; aligned by Eigen, see types.hpp
 };
 
 }  // namespace

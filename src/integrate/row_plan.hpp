@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <vector>
 
 #include "heerk_rotor/core/types.hpp"
@@ -41,6 +42,9 @@ struct RowPlan {
   std::vector<Row> rows;
 
   explicit RowPlan(const Tableau& tableau);
+
+  /// The row without remainders: its first product propagates the state.
+  Row stateOf(int row) const { return {rows[row].begin, std::min(rows[row].begin + 1, rows[row].end)}; }
 
   /// Largest k of the phi_k needed at this node.
   int highestK(double node) const;

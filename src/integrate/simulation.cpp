@@ -34,8 +34,8 @@ Simulation::Simulation(CoupledSystem system, const StepOptions& options) : syste
   if (const Index i = firstNonFinite(x_.data(), x_.size()); i >= 0) throw std::invalid_argument("Simulation: the initial state " + std::to_string(i) + " is not finite");
   next_ = Vector::Zero(x_.size());
   w_ = system_.defaultCommand();
-  method_ = makeStepMethod(options_.method, system_, options_.step, options_.solver.tolerance);
   solver_ = std::make_unique<AlgebraicSolver>(system_, options_.solver, t0_, x_, w_);
+  method_ = makeStepMethod(options_.method, system_, options_.step, options_.solver.tolerance);
   initial_cache_ = solver_->cache();
   at_last_instant_ = solver_->counters();
 }
@@ -81,6 +81,12 @@ bool Simulation::at(double t, const Vector& x, bool complete, double* f) noexcep
   if (!stateIsFinite(x, t) || !solveStage(t, x, w_)) return false;
   system_.evalRemainder(t, x, solver_->u(), complete, f);
   return true;
+}
+
+bool Simulation::atStartNarrow(const Vector& z, double* r) noexcept { return system_.evalStageRemainder(modelTime(), z, solver_->u(), r); }
+
+bool Simulation::atNarrow(double t, const Vector& z, double* r) noexcept {
+  return firstNonFinite(z.data(), z.size()) < 0 && solver_->solveStage(t, z, w_).status == SolveStatus::kConverged && system_.evalStageRemainder(t, z, solver_->u(), r);
 }
 
 StepStatus Simulation::observe(const Vector& command) noexcept {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "heerk_rotor/aero/branch_free_math.hpp"
+#include "heerk_rotor/core/branch_free_math.hpp"
 #include "heerk_rotor/models/blade_airloads.hpp"
 
 namespace heerk_rotor {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "blade_dynamics.hpp"
-#include "heerk_rotor/aero/branch_free_math.hpp"
+#include "heerk_rotor/core/branch_free_math.hpp"
 #include "heerk_rotor/models/hub_motion.hpp"
 #include "model_factories.hpp"
 

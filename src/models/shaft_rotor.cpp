@@ -80,6 +80,10 @@ class ShaftRotor : public SubsystemModel {
   void evalDerivatives(double t, const In& x, const In& u, Out xdot) noexcept override;
   void evalRemainder(double t, const In& x, const In& u, Out remainder) noexcept override;
   void completeInitialState(const In&, Out x) const override { x += form_.start; }
+  const NarrowForm* narrowForm() const override { return narrow_.C.rows() > 0 ? &narrow_ : nullptr; }
+  bool narrowOutput(Index port) const override;
+  void evalNarrowOutput(Index port, double t, const In& z, const In& u, Out y) noexcept override;
+  bool evalNarrowRemainder(double t, const In& z, const In& u, Out r) noexcept override;
 
  private:
   enum class Kind { kRows, kAzimuth, kSpeed, kEnergy, kDissipation, kUnbalancePower };
@@ -88,6 +92,7 @@ class ShaftRotor : public SubsystemModel {
     OutputPort declaration;
     Rows rows;           // (size x N), kRows only
     FourRows four_rows;  // the same, where there are four
+    Index z_begin;       // of a journal's motion: its place in z
   };
   /// (omega^2 - i omega') e^{i psi}, of which the unbalance columns take real and imaginary part; `less` times the phasor taken off.
   struct Rotating {
@@ -96,7 +101,7 @@ class ShaftRotor : public SubsystemModel {
   Rotating rotating(double t, const In& x, const In& u, double less) const noexcept;
 
   /// A port whose entries are rows of (q, q') each; the names take turns with unit and unit per second.
-  void addRows(OutputPort declaration, const Matrix& of_motion);
+  void addRows(OutputPort declaration, const Matrix& of_motion, Index z_begin = -1);
   void addScalar(Kind kind, OutputPort declaration);
   void addPorts(const ShaftMatrices& shaft);
 
@@ -110,6 +115,7 @@ class ShaftRotor : public SubsystemModel {
   Matrix speed_deviation_;    // (N x N) gyroscopic term of one rad/s more than nominal
   Rows rates_;                // (n x N) q'
   Matrix damping_;            // (n x n) C
+  NarrowForm narrow_;         // z: motion of each journal; r: force on each, then the unbalance where S does not hold it
   bool unbalance_inside_;
   Vector rate_, load_, energy_;  // scratch
 };
@@ -132,17 +138,25 @@ ShaftRotor::ShaftRotor(const ShaftRotorParameters& p, const ShaftMatrices& shaft
   load_.setZero(n);
   energy_.setZero(2 * n);
   addPorts(shaft);
+
+  if (journals == 0) return;
+  narrow_.C.resize(4 * journals, form_.force.rows());
+  for (const Port& port : ports_)
+    if (port.z_begin >= 0) narrow_.C.middleRows(port.z_begin, 4) = port.rows;
+  narrow_.B.resize(form_.force.rows(), 2 * journals + (unbalance_inside_ ? 0 : 2));
+  narrow_.B.leftCols(2 * journals) = journal_force_;
+  if (!unbalance_inside_) narrow_.B.rightCols(2) = unbalance_force_;
 }
 
-void ShaftRotor::addRows(OutputPort declaration, const Matrix& of_motion) {
+void ShaftRotor::addRows(OutputPort declaration, const Matrix& of_motion, Index z_begin) {
   declaration.size = of_motion.rows();
   if (declaration.size == 0) return;
-  Port port{Kind::kRows, std::move(declaration), of_motion * form_.observe, {}};
+  Port port{Kind::kRows, std::move(declaration), of_motion * form_.observe, {}, z_begin};
   if (port.rows.rows() == 4) port.four_rows = FourRows(port.rows);
   ports_.push_back(std::move(port));
 }
 
-void ShaftRotor::addScalar(Kind kind, OutputPort declaration) { ports_.push_back({kind, std::move(declaration), {}, {}}); }
+void ShaftRotor::addScalar(Kind kind, OutputPort declaration) { ports_.push_back({kind, std::move(declaration), {}, {}, -1}); }
 
 void ShaftRotor::addPorts(const ShaftMatrices& shaft) {
   const Index n = shaft.size();
@@ -172,7 +186,7 @@ void ShaftRotor::addPorts(const ShaftMatrices& shaft) {
       motion(2 + axis, n + row + axis) = 1.0;
     }
     addRows({"journal_motion" + number, 0, "m, m/s", "displacement of the journal from its static position along x and y, and its velocity", {}, 1e-5,
-             {who + "_x", who + "_y", who + "_x_rate", who + "_y_rate"}, true, {"m", "m", "m/s", "m/s"}}, motion);
+             {who + "_x", who + "_y", who + "_x_rate", who + "_y_rate"}, true, {"m", "m", "m/s", "m/s"}}, motion, 4 * static_cast<Index>(j));
   }
 
   OutputPort force{"bearing_force", 0, "N", "force of each bearing on the shaft, without its static part", {}, 100.0, {}, true};
@@ -250,6 +264,29 @@ void ShaftRotor::evalOutput(Index number, double t, const In& x, const In& u, Ou
       break;
     }
   }
+}
+
+bool ShaftRotor::narrowOutput(Index port) const {
+  const Port& p = ports_[static_cast<std::size_t>(port)];
+  return p.z_begin >= 0 || p.kind == Kind::kAzimuth || p.kind == Kind::kSpeed;
+}
+
+void ShaftRotor::evalNarrowOutput(Index port, double t, const In& z, const In& u, Out y) noexcept {
+  const Index z_begin = ports_[static_cast<std::size_t>(port)].z_begin;
+  if (z_begin < 0) return evalOutput(port, t, z, u, y);  // angle and speed, which do not read the state
+  for (Index i = 0; i < 4; ++i) y[i] = z[z_begin + i];
+}
+
+bool ShaftRotor::evalNarrowRemainder(double t, const In& z, const In& u, Out r) noexcept {
+  const bool deviates = u[kDriveAngle] != 0.0 || u[kDriveAcceleration] != 0.0;
+  if (u[kDriveRate] != 0.0 || (unbalance_inside_ && deviates)) return false;
+  for (Index j = 0; j < journal_force_.cols(); ++j) r[j] = u[kDriveSize + j];
+  for (Index i : {0, 1}) r[i] += p_.linearised_film_damping * z[2 + i];
+  if (unbalance_inside_) return true;
+  const Rotating force = rotating(t, z, u, 0.0);
+  r[journal_force_.cols()] = force.re;
+  r[journal_force_.cols() + 1] = force.im;
+  return true;
 }
 
 void ShaftRotor::evalRemainder(double t, const In& x, const In& u, Out remainder) noexcept {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "heerk_rotor/core/branch_free_math.hpp"
+
 namespace heerk_rotor {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -12,24 +14,26 @@ SqueezeFilm::SqueezeFilm(const Parameters& p)
 SqueezeFilm::Force SqueezeFilm::force(double rho_x, double rho_y, double v_x, double v_y) const noexcept {
   const double speed = std::sqrt(v_x * v_x + v_y * v_y);
   if (speed == 0.0) return {0.0, 0.0};
-  const double e2 = rho_x * rho_x + rho_y * rho_y;
+  double e2 = rho_x * rho_x + rho_y * rho_y;
   if (e2 > kLargestEccentricity * kLargestEccentricity) {
     const double shrink = kLargestEccentricity / std::sqrt(e2);
     rho_x *= shrink;
     rho_y *= shrink;
+    e2 = kLargestEccentricity * kLargestEccentricity;
   }
-  const double u_x = v_x / speed, u_y = v_y / speed;
-  const double a = rho_x * u_x + rho_y * u_y, b = rho_y * u_x - rho_x * u_y;
-  const double D = 1.0 - a * a - b * b, root = std::sqrt(D), inverse = 1.0 / (D * D);
+  // Along and across the velocity a^2 + b^2 = e^2, so that what depends on e alone need not wait for the direction.
+  const double D = 1.0 - e2, root = std::sqrt(D), over_speed = 1.0 / speed;
+  const double u_x = v_x * over_speed, u_y = v_y * over_speed;
+  const double a = rho_x * u_x + rho_y * u_y, b = rho_y * u_x - rho_x * u_y, one_less_b2 = D + a * a;
 
   // Shares of S / D^(5/2), then what the half film has besides.
-  const double S = (full_ ? kPi : std::atan2(root, -a)) * inverse / root;
-  double along = S * (1.0 - b * b + 2.0 * a * a), across = S * 3.0 * a * b;
+  const double S = (full_ ? kPi : arcTangent2(root, -a)) / root;
+  double along = S * (one_less_b2 + 2.0 * a * a), across = S * 3.0 * a * b;
   if (!full_) {
-    along += 3.0 * a * inverse;
-    across += b * (2.0 + a * a / (1.0 - b * b)) * inverse;
+    along += 3.0 * a;
+    across += b * (2.0 + a * a / one_less_b2);
   }
-  const double size = -k_ * speed;
+  const double size = -k_ * speed / (D * D);
   return {size * (along * u_x - across * u_y), size * (along * u_y + across * u_x)};
 }
 

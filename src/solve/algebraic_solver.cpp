@@ -26,7 +26,7 @@ struct Loop {
   bool factorized = false;
   std::vector<double> step, reference, kept;
   BroydenMemory broyden;                 // of the present solve
-  std::vector<double> jacobian;          // scratch for a model's own Jacobian
+  Vector jacobian;                       // scratch for a model's own Jacobian
 };
 
 }  // namespace
@@ -37,6 +37,11 @@ struct AlgebraicSolver::Implementation {
   CoupledSystem& system;
   SolverOptions options;
   EvaluationPlan plan;
+  struct StageItem {  // of plan.stage, whose inputs follow each other in stage_inputs
+    Index inputs, output, loop;
+  };
+  std::vector<StageItem> stage_items;
+  std::vector<Index> stage_inputs;
   std::vector<Loop> pruned, full;
   std::vector<char> use_full;            // per loop: pruning has failed once
   std::vector<char> is_unknown;          // per y entry, for the plan in use
@@ -50,6 +55,14 @@ struct AlgebraicSolver::Implementation {
   std::uint64_t clock = 1, stage_stamp = 1;
   std::vector<std::uint64_t> input_stamp, output_stamp;
 
+  // Where the state comes from: x, or a stage's z.
+  bool in_stage = false;
+
+  void value(Index port, double t, const Vector& x, double* result) noexcept {
+    if (in_stage) system.evalStageOutput(port, t, x, u, result);
+    else system.evalOutput(port, t, x, u, result);
+  }
+
   void gather(Index input, const Vector& w) noexcept {
     if (system.gather(input, y, w, u)) input_stamp[input] = ++clock;
   }
@@ -60,7 +73,7 @@ struct AlgebraicSolver::Implementation {
     std::uint64_t newest = stage_stamp;
     for (const Index input : output.feedthrough) newest = std::max(newest, input_stamp[input]);
     if (output_stamp[port] >= newest) return;
-    system.evalOutput(port, t, x, u, g.data() + output.begin);
+    value(port, t, x, g.data() + output.begin);
     output_stamp[port] = ++clock;
     ++evaluations[output.subsystem];
   }
@@ -68,7 +81,7 @@ struct AlgebraicSolver::Implementation {
   /// A port outside the loops: once per solve, straight into y.
   void evaluateOnce(Index port, double t, const Vector& x) noexcept {
     const CoupledSystem::Output& output = system.outputs()[port];
-    system.evalOutput(port, t, x, u, y.data() + output.begin);
+    value(port, t, x, y.data() + output.begin);
     output_stamp[port] = ++clock;
     ++evaluations[output.subsystem];
   }
@@ -140,9 +153,10 @@ struct AlgebraicSolver::Implementation {
     for (const Index port : p.core) {
       const CoupledSystem::Output& output = system.outputs()[port];
       const CoupledSystem::Subsystem& owner = system.subsystems()[output.subsystem];
+      if (in_stage && owner.narrow) continue;  // knows itself in x only
       Eigen::Map<Matrix> jacobian(loop.jacobian.data(), output.size, owner.u_size);
       jacobian.setZero();
-      if (!owner.model->outputJacobian(output.port, t, In(x.data() + owner.x_begin, owner.x_size), In(u.data() + owner.u_begin, owner.u_size), jacobian)) continue;
+      if (!owner.model->outputJacobian(output.port, t, In(x.data() + (in_stage ? owner.z_begin : owner.x_begin), owner.x_size), In(u.data() + owner.u_begin, owner.u_size), jacobian)) continue;
       for (std::size_t j = 0; j < p.unknowns.size(); ++j) {
         for (Index q = p.gradient.start[j]; q < p.gradient.start[j + 1]; ++q) {
           const Index i = p.gradient.rows[q], row = p.unknowns[i] - output.begin;
@@ -270,8 +284,9 @@ struct AlgebraicSolver::Implementation {
     ++counters.solves;
     stage_stamp = ++clock;
     SolveReport worst;
-    for (const EvaluationPlan::Item& item : plan.stage) {
-      for (const Index input : item.inputs) gather(input, w);
+    const Index* input = stage_inputs.data();
+    for (const StageItem& item : stage_items) {
+      for (const Index* const end = input + item.inputs; input != end; ++input) system.fetch(*input, y, w, u);  // nothing has read them in this solve
       if (item.output >= 0) {
         evaluateOnce(item.output, t, x);
         continue;
@@ -284,7 +299,7 @@ struct AlgebraicSolver::Implementation {
         worst.entry = report.entry;
       }
     }
-    for (const Index input : plan.last_inputs) gather(input, w);
+    for (const Index input : plan.last_inputs) system.fetch(input, y, w, u);
     return worst;
   }
 };
@@ -293,6 +308,11 @@ AlgebraicSolver::AlgebraicSolver(CoupledSystem& system, const SolverOptions& opt
     : impl_(std::make_unique<Implementation>(system, options)) {
   Implementation& s = *impl_;
   s.plan = planEvaluation(system, t, x, w);
+  system.chooseNarrowForms(neededInStages(s.plan, system));
+  for (const EvaluationPlan::Item& item : s.plan.stage) {
+    s.stage_items.push_back({static_cast<Index>(item.inputs.size()), item.output, item.loop});
+    s.stage_inputs.insert(s.stage_inputs.end(), item.inputs.begin(), item.inputs.end());
+  }
   s.y = s.g = Vector::Zero(system.outputSize());
   s.u = Vector::Zero(system.inputSize());
   s.input_stamp.assign(system.inputs().size(), 0);
@@ -309,7 +329,7 @@ AlgebraicSolver::AlgebraicSolver(CoupledSystem& system, const SolverOptions& opt
       largest = std::max(largest, static_cast<std::size_t>(output.size * system.subsystems()[output.subsystem].u_size));
     }
     for (Loop* loop : {&s.pruned.back(), &s.full.back()}) {
-      loop->jacobian.assign(largest, 0.0);
+      loop->jacobian.setZero(static_cast<Index>(largest));
       for (std::size_t k = 0; k < loop->nominal.size(); ++k)
         for (const Index port : loop->plan.outputs)
           if (const CoupledSystem::Output& output = system.outputs()[port]; loop->plan.unknowns[k] >= output.begin && loop->plan.unknowns[k] < output.begin + output.size)
@@ -342,6 +362,13 @@ AlgebraicSolver::AlgebraicSolver(CoupledSystem& system, const SolverOptions& opt
 AlgebraicSolver::~AlgebraicSolver() = default;
 
 SolveReport AlgebraicSolver::solve(double t, const Vector& x, const Vector& w) noexcept { return impl_->solve(t, x, w); }
+
+SolveReport AlgebraicSolver::solveStage(double t, const Vector& z, const Vector& w) noexcept {
+  impl_->in_stage = true;
+  const SolveReport report = impl_->solve(t, z, w);
+  impl_->in_stage = false;
+  return report;
+}
 
 void AlgebraicSolver::evalObserved(double t, const Vector& x, const Vector& w) noexcept {
   for (const EvaluationPlan::Item& item : impl_->plan.observed) {

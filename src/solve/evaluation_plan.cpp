@@ -238,8 +238,9 @@ EvaluationPlan planEvaluation(CoupledSystem& system, double t, const Vector& x, 
   needed = closure(depends, needed);
 
   // An input is final once the ports that feed it are, so each is gathered once, by the first port that reads it;
-  // only what a loop feeds to itself is gathered again while it iterates.
+  // only what a loop feeds to itself is gathered again while it iterates. Constants stay as they are.
   std::vector<char> gathered(inputs.size(), 0);
+  for (std::size_t i = 0; i < inputs.size(); ++i) gathered[i] = inputs[i].sources.empty() && inputs[i].command < 0;
   const auto newInputs = [&](const std::vector<Index>& ports) {
     std::vector<Index> result;
     for (const Index port : ports)
@@ -273,6 +274,16 @@ EvaluationPlan planEvaluation(CoupledSystem& system, double t, const Vector& x, 
   for (const auto& component : components)
     if (!needed[component[0]]) plan.observed.push_back({newInputs(component), component[0], -1});
   return plan;
+}
+
+std::vector<char> neededInStages(const EvaluationPlan& plan, const CoupledSystem& system) {
+  std::vector<char> needed(system.outputs().size(), 0);
+  for (const EvaluationPlan::Item& item : plan.stage) {
+    if (item.output >= 0) needed[item.output] = 1;
+    else
+      for (const Index output : plan.full[item.loop].outputs) needed[output] = 1;
+  }
+  return needed;
 }
 
 }  // namespace heerk_rotor

@@ -8,9 +8,9 @@
 
 #include "aero/shipped_deck.hpp"
 #include "heerk_rotor/aero/airfoil_table.hpp"
-#include "heerk_rotor/aero/branch_free_math.hpp"
 #include "heerk_rotor/aero/linear_polar.hpp"
 #include "heerk_rotor/aero/tip_loss.hpp"
+#include "heerk_rotor/core/branch_free_math.hpp"
 #include "models/allocation_counter.hpp"
 
 namespace heerk_rotor {

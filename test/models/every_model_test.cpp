@@ -186,6 +186,33 @@ TEST_P(EveryModel, remainderIsDerivativesMinusStiffPart) {
   }
 }
 
+TEST_P(EveryModel, narrowFormSaysTheSameAsTheCompleteOne) {
+  const NarrowForm* form = tested.model->narrowForm();
+  if (!form) return;
+  ASSERT_EQ(form->C.cols(), static_cast<Index>(tested.states.size()));
+  ASSERT_EQ(form->B.rows(), form->C.cols());
+  Vector x, u;
+  int answered = 0;
+  for (int k = 0; k < 50; ++k) {
+    tested.randomPoint(random, x, u);
+    if (k % 2 == 0) u.head(tested.inputs[0].size).setZero();  // most models have a narrow form only while nothing drives them away from the nominal
+    const Vector z = form->C * x;
+    for (std::size_t p = 0; p < tested.outputs.size(); ++p) {
+      if (!tested.model->narrowOutput(static_cast<Index>(p))) continue;
+      const Vector expected = tested.output(p, 0.2 * k, x, u);
+      Vector y = Vector::Zero(expected.size());
+      tested.model->evalNarrowOutput(static_cast<Index>(p), 0.2 * k, in(z), in(u), view(y));
+      EXPECT_LE((y - expected).cwiseAbs().maxCoeff(), 1e-13 * expected.cwiseAbs().maxCoeff()) << tested.outputs[p].name;
+    }
+    Vector r = Vector::Zero(form->B.cols()), remainder = Vector::Zero(x.size());
+    if (!tested.model->evalNarrowRemainder(0.2 * k, in(z), in(u), view(r))) continue;
+    ++answered;
+    tested.model->evalRemainder(0.2 * k, in(x), in(u), view(remainder));
+    EXPECT_LE((form->B * r - remainder).cwiseAbs().maxCoeff(), 1e-13 * remainder.cwiseAbs().maxCoeff());
+  }
+  EXPECT_GT(answered, 20);
+}
+
 TEST_P(EveryModel, outputJacobiansAreTheDerivativesOfTheOutputs) {
   Vector x, u;
   for (std::size_t p = 0; p < tested.outputs.size(); ++p) {
@@ -217,6 +244,9 @@ TEST_P(EveryModel, evaluatesWithoutTouchingTheHeap) {
     y.push_back(Vector::Zero(port.size));
     jacobian.push_back(Matrix::Zero(port.size, tested.input_size));
   }
+  const NarrowForm* form = tested.model->narrowForm();
+  const Vector z = form ? Vector(form->C * x) : Vector();
+  Vector r = Vector::Zero(form ? form->B.cols() : 0);
   std::uint64_t calls = 0;
   {
     HeapCalls heap;
@@ -227,6 +257,7 @@ TEST_P(EveryModel, evaluatesWithoutTouchingTheHeap) {
     }
     tested.model->evalDerivatives(0.1, in(x), in(u), view(xdot));
     tested.model->evalRemainder(0.1, in(x), in(u), view(xdot));
+    if (form) tested.model->evalNarrowRemainder(0.1, in(z), in(u), view(r));
     calls = heap.count();
   }
   EXPECT_EQ(calls, 0u);

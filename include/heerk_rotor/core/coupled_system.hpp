@@ -29,6 +29,9 @@ class CoupledSystem {
     StiffPart stiff;
     bool provides_remainder;
     Index x_begin, x_size, u_begin, u_size, y_begin, y_size;
+    // What the stages of a step may carry instead of x and the remainder: z = C x and r of the narrow form, or x and the remainder themselves.
+    const NarrowForm* narrow = nullptr;
+    Index z_begin, z_size, r_begin, r_size;
   };
 
   /// An output port within the global y.
@@ -55,6 +58,11 @@ class CoupledSystem {
   Index inputSize() const { return u_size_; }
   Index outputSize() const { return y_size_; }
   Index commandSize() const { return default_command_.size(); }
+
+  /// Of the stages' z and r, see chooseNarrowForms(); without one they are x and the remainder.
+  Index stageSize() const { return z_size_; }
+  Index stageRemainderSize() const { return r_size_; }
+  bool hasNarrowForms() const { return has_narrow_forms_; }
 
   const std::vector<Subsystem>& subsystems() const { return subsystems_; }
   const std::vector<Output>& outputs() const { return outputs_; }
@@ -87,14 +95,29 @@ class CoupledSystem {
   /// Sums the sources of one input port into u. Returns whether any entry changed (bitwise).
   bool gather(Index input, const Vector& y, const Vector& w, Vector& u) const noexcept;
 
+  /// The same without asking for changes.
+  void fetch(Index input, const Vector& y, const Vector& w, Vector& u) const noexcept;
+
   /// Evaluates one output port into `result` (its entries only).
   void evalOutput(Index output, double t, const Vector& x, const Vector& u, double* result) noexcept;
 
   /// remainder = f(t, x, u) - S x of all subsystems, or the complete f when `complete` is set.
   void evalRemainder(double t, const Vector& x, const Vector& u, bool complete, double* remainder) noexcept;
 
+  /// Takes the narrow form of every model all of whose `needed` outputs (one flag per output) can be evaluated from it.
+  void chooseNarrowForms(const std::vector<char>& needed);
+
+  /// evalOutput() of a needed output, and all remainders, in a stage: z (stageSize()), r (stageRemainderSize()). The latter is false where some model
+  /// has no narrow form with these inputs.
+  void evalStageOutput(Index output, double t, const Vector& z, const Vector& u, double* result) noexcept;
+  bool evalStageRemainder(double t, const Vector& z, const Vector& u, double* r) noexcept;
+
  private:
   friend class CouplingGraph;
+  void layOutStages();
+  const double* firstSource(const Input& input, const Vector& y, const Vector& w) const noexcept;
+  void evalRemainderOf(const Subsystem& s, double t, const In& x, const Vector& u, bool complete, double* remainder) noexcept;
+
   std::vector<Subsystem> subsystems_;
   std::vector<Output> outputs_;
   std::vector<Input> inputs_;
@@ -103,7 +126,8 @@ class CoupledSystem {
   std::vector<std::pair<Index, double>> start_;
   std::vector<std::string> command_names_;
   Vector default_command_, command_low_, command_high_;
-  Index x_size_ = 0, u_size_ = 0, y_size_ = 0;
+  Index x_size_ = 0, u_size_ = 0, y_size_ = 0, z_size_ = 0, r_size_ = 0;
+  bool has_narrow_forms_ = false;
 };
 
 }  // namespace heerk_rotor

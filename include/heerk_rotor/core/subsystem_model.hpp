@@ -49,6 +49,12 @@ struct State {
   const std::string& initialKey() const { return initial_key.empty() ? name : initial_key; }
 };
 
+/// A remainder that reads and moves only a few combinations of many states: f~(t, x, u) = B r(t, z, u) with z = C x.
+struct NarrowForm {
+  Matrix C;  // (number of z x n)
+  Matrix B;  // (n x number of r)
+};
+
 /// One subsystem of the coupled index-1 DAE in state-space form (HEERK paper, eq. 1):
 ///   x' = f(t, x, u),  y = g(t, x, u).
 /// u holds all input ports one after the other in the order of inputs(); evaluating an output port may read only the
@@ -73,6 +79,15 @@ class SubsystemModel {
   /// evalDerivatives to round-off; providesRemainder() then returns true.
   virtual bool providesRemainder() const { return false; }
   virtual void evalRemainder(double t, const In& x, const In& u, Out remainder) noexcept;
+
+  /// For a model with a remainder of narrow form: an exponential method then carries z instead of x through the stages of a step, as long as all
+  /// ports that these need can be evaluated from z, too. Constant; nullptr: no such form.
+  virtual const NarrowForm* narrowForm() const { return nullptr; }
+  /// Whether evalNarrowOutput() knows this port.
+  virtual bool narrowOutput(Index port) const;
+  virtual void evalNarrowOutput(Index port, double t, const In& z, const In& u, Out y) noexcept;
+  /// r(t, z, u). False: not with these inputs; the step is then taken with x.
+  virtual bool evalNarrowRemainder(double t, const In& z, const In& u, Out r) noexcept;
 
   /// jacobian(i, j) = d y_i / d u_j (port size x input size, column-major) when the model knows it; false: differenced.
   virtual bool outputJacobian(Index port, double t, const In& x, const In& u, Eigen::Map<Matrix> jacobian) noexcept;

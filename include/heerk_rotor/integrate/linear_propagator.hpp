@@ -15,6 +15,9 @@ class LinearPropagator {
   /// result = e^{c_row hS} x + h sum_{j < row} a_{row,j}(hS) F_j; row == stages() is the step itself.
   /// x, result: (n); F_j = remainders + j * stride, (n) each. result must not overlap x or F.
   virtual void combine(int row, const double* x, const double* remainders, Index stride, double* result) const noexcept = 0;
+
+  /// result = e^{c_row hS} x alone.
+  virtual void propagate(int row, const double* x, double* result) const noexcept = 0;
 };
 
 /// The propagator that fits the structure of `part`. A tableau with exponential == false takes S as zero

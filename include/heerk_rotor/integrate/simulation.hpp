@@ -111,6 +111,8 @@ class Simulation : private StageEvaluator {
   bool outputsAreFinite() noexcept;
   void atStart(bool complete, double* f) noexcept override;
   bool at(double t, const Vector& x, bool complete, double* f) noexcept override;
+  bool atStartNarrow(const Vector& z, double* r) noexcept override;
+  bool atNarrow(double t, const Vector& z, double* r) noexcept override;
 
   CoupledSystem system_;
   StepOptions options_;

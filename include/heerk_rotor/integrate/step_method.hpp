@@ -15,6 +15,11 @@ class StageEvaluator {
   virtual void atStart(bool complete, double* f) noexcept = 0;
   /// The same at any (t, x). False: x is not finite or the algebraic part has no solution there; the step has failed and the cause is on record.
   virtual bool at(double t, const Vector& x, bool complete, double* f) noexcept = 0;
+
+  /// The remainders in the z and r of narrow forms (CoupledSystem::stageSize()), at (t_n, x_n) and elsewhere. False: not possible there; at() then says
+  /// whether anything is wrong.
+  virtual bool atStartNarrow(const Vector& z, double* r) noexcept = 0;
+  virtual bool atNarrow(double t, const Vector& z, double* r) noexcept = 0;
 };
 
 /// An integration method for x' = S x + f~(t, x), made for one system and one step size. One instance per simulation; advance() allocates and

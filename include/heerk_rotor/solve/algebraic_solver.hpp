@@ -50,13 +50,16 @@ struct LoopInfo {
 /// Holds y and u of the last solution, which also is the next start value.
 class AlgebraicSolver {
  public:
-  /// Probes the gradient around (t, x, w). Throws CouplingError when a loop is not index 1 there
+  /// Chooses the system's narrow forms and probes the gradient around (t, x, w). Throws CouplingError when a loop is not index 1 there
   /// (I - dg/dy singular) and names the ports of the loop.
   AlgebraicSolver(CoupledSystem& system, const SolverOptions& options, double t, const Vector& x, const Vector& w);
   ~AlgebraicSolver();
 
   /// Outputs that f needs. Allocates nothing.
   SolveReport solve(double t, const Vector& x, const Vector& w) noexcept;
+
+  /// The same in a stage whose state is given as z (CoupledSystem::stageSize()).
+  SolveReport solveStage(double t, const Vector& z, const Vector& w) noexcept;
 
   /// All other outputs, from the last solution: call before reading the complete y.
   void evalObserved(double t, const Vector& x, const Vector& w) noexcept;

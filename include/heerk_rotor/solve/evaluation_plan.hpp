@@ -22,7 +22,7 @@ struct LoopPlan {
 
 /// The order in which the outputs of a coupled system become known.
 struct EvaluationPlan {
-  /// A single port, or a loop, with the inputs to gather before it (each input once per solution).
+  /// A single port, or a loop, with the inputs to gather before it (each input once per solution, constants never).
   struct Item {
     std::vector<Index> inputs;
     Index output = -1;  // when >= 0
@@ -37,5 +37,8 @@ struct EvaluationPlan {
 /// Finds dependencies, loops (strongly connected components) and, by probing the gradient at (t, x, w) and at perturbed
 /// states around it, which single entries of a loop have to be iterated (HEERK paper, Section 4.3).
 EvaluationPlan planEvaluation(CoupledSystem& system, double t, const Vector& x, const Vector& w);
+
+/// The outputs that the stages of a step evaluate, one flag per output.
+std::vector<char> neededInStages(const EvaluationPlan& plan, const CoupledSystem& system);
 
 }  // namespace heerk_rotor
