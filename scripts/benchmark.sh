@@ -50,6 +50,7 @@ for program in "$programs"/bench_*; do
   name=${program##*/bench_}
   [ ${#only[@]} -eq 0 ] || [[ " ${only[*]} " == *" $name "* ]] || continue
   echo "bench_$name"
+  git -C "$repository" describe --always --abbrev=10 --exclude '*' --dirty=' with changes' >"$results/$name.commit" 2>/dev/null || true
   "$program" --benchmark_out="$results/$name.json" --benchmark_out_format=json --benchmark_min_time=$minimum --benchmark_repetitions=$repetitions \
     --benchmark_report_aggregates_only=false >"$results/$name.log" 2>&1 || { echo "bench_$name failed, see $results/$name.log" >&2; status=1; }
 done

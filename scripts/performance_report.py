@@ -12,7 +12,7 @@ import sys
 
 from lag_rotor_study.text import Checks, table
 from performance_study import figures, tables
-from performance_study.results import Results, commit, compiler, machine
+from performance_study.results import Results, compiler, machine
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
@@ -64,7 +64,7 @@ def main():
     scaling = figures.scaling(results, folder, checks)
     version, flags = compiler(options.build)
     loads = results.loads()
-    about = table(["", ""], [["machine", machine()], ["compiler", version], ["flags", f"`{flags}`"], ["commit", commit(ROOT)], ["date", results.date()],
+    about = table(["", ""], [["machine", machine()], ["compiler", version], ["flags", f"`{flags}`"], ["commit", ", ".join(sorted(results.commits))], ["date", results.date()],
                              ["load average", f"{min(loads):.1f} to {max(loads):.1f} at the start of the programs" if loads else "unknown"]])
     step_figure, part_figure, startup_figure, size_figure = (make(results, folder) for make in (figures.steps, figures.parts, figures.startup, figures.table_size))
     errors = results.errors()

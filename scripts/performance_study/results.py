@@ -41,7 +41,7 @@ class Results:
     """All measurements by program and benchmark name, without the parts of the name that only say how it was run."""
 
     def __init__(self, folder):
-        self.programs, self.contexts, self.repetitions = {}, {}, 0
+        self.programs, self.contexts, self.commits, self.repetitions = {}, {}, set(), 0
         for file in sorted(pathlib.Path(folder).glob("*.json")):
             try:
                 content = json.loads(file.read_text())
@@ -49,6 +49,8 @@ class Results:
                 self.programs[file.stem] = {}
                 continue
             self.contexts[file.stem] = content["context"]
+            commit = file.with_suffix(".commit")
+            self.commits.add(commit.read_text().strip() if commit.exists() else "unknown")
             measurements = self.programs.setdefault(file.stem, {})
             for entry in content["benchmarks"]:
                 if entry.get("run_type") != "iteration":
@@ -104,8 +106,3 @@ def compiler(build):
     version = output(words[0], "--version").splitlines()[0] if words else "unknown compiler"
     return version, " ".join(word for word in words if re.match(r"-(O|march|m|f|std|DNDEBUG)", word))
 
-
-def commit(root):
-    name = output("git", "rev-parse", "--short=10", "HEAD", folder=root) or "unknown"
-    changed = output("git", "status", "--porcelain", "--untracked-files=no", "--", "src", "include", "bench", "cmake", "config", folder=root)
-    return name + (" with changes" if changed else "")

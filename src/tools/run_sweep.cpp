@@ -33,6 +33,7 @@ struct FinishedLines {
 void take(FinishedLines& finished, std::uint64_t run, const SweepOutcome& outcome, std::string line) {
   const std::lock_guard<std::mutex> lock(finished.mutex);
   finished.lines.emplace(run, std::move(line));
+  finished.changed.notify_one();
   ++finished.done;
   if (outcome.status == "done" || outcome.status == "interrupted") return;
   ++finished.failed;
@@ -107,7 +108,6 @@ int runSweep(const SimulateOptions& options) {
     for (std::uint64_t run; !file_failed && StopRequest::signal() == 0 && (run = next_run.fetch_add(1)) < sweep.size();) {
       const SweepOutcome outcome = runOne(options, sweep, run, columns.signals, progress);
       take(finished, run, outcome, table.row(run, outcome));
-      finished.changed.notify_one();
     }
     const std::lock_guard<std::mutex> lock(finished.mutex);
     --finished.working;
