@@ -10,6 +10,8 @@
 #include <optional>
 #include <thread>
 
+#include <sched.h>
+
 #include "heerk_rotor/tools/conclude_run.hpp"
 #include "heerk_rotor/tools/row_file.hpp"
 #include "heerk_rotor/tools/stop_request.hpp"
@@ -59,6 +61,13 @@ RowFile openTable(const std::string& file) {
   }
 }
 
+/// Those this process may run on (taskset, containers), not those of the machine.
+std::size_t processors() {
+  cpu_set_t allowed;
+  if (::sched_getaffinity(0, sizeof allowed, &allowed) == 0) return static_cast<std::size_t>(CPU_COUNT(&allowed));
+  return std::max(1u, std::thread::hardware_concurrency());  // more processors than cpu_set_t holds
+}
+
 struct SweepTotals {
   std::uint64_t runs, done, failed;
   std::size_t jobs;
@@ -94,8 +103,7 @@ int runSweep(const SimulateOptions& options) {
     for (const std::string& warning : columns.warnings) complain("warning: first run: " + warning);
   file.write(table.header());
 
-  const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
-  const std::size_t jobs = static_cast<std::size_t>(std::min<std::uint64_t>(options.jobs.value_or(processors), sweep.size()));
+  const std::size_t jobs = static_cast<std::size_t>(std::min<std::uint64_t>(options.jobs.value_or(processors()), sweep.size()));
   const StopRequest stop;
   const auto start = std::chrono::steady_clock::now();
   SweepProgress progress(sweep.size(), !options.quiet);

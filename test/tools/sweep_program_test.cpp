@@ -3,6 +3,7 @@
 #include <csignal>
 
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <sys/resource.h>
 #include <yaml-cpp/yaml.h>
 
@@ -194,6 +195,22 @@ TEST(SweepProgram, offATerminalThereIsALinePerTenPerCent) {
   EXPECT_LE(std::count(run.err.begin(), run.err.end(), '\n'), 10);
   EXPECT_FALSE(mentions(run.err, "\r")) << "no bar";
   EXPECT_TRUE(mentions(run.out, "sweep: 20 of 20 runs")) << run.out;
+}
+
+TEST(SweepProgram, withoutJobsThereIsOnePerProcessorThatTheProcessMayUse) {
+  const TestFolder folder;
+  cpu_set_t allowed, one;
+  ASSERT_EQ(::sched_getaffinity(0, sizeof allowed, &allowed), 0);
+  CPU_ZERO(&one);
+  for (int cpu = 0; cpu < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++cpu)
+    if (CPU_ISSET(cpu, &allowed)) CPU_SET(cpu, &one);
+  const std::vector<std::string> sweep = {kLagRotor, "--sweep", "subsystems.mast.stiffness=3e4,3e5,3e6", "--duration", "0.01", "--json", "--output", folder.file("x.csv")};
+  ::sched_setaffinity(0, sizeof one, &one);  // inherited by the program
+  const Finished pinned = simulate(sweep);
+  ::sched_setaffinity(0, sizeof allowed, &allowed);
+  EXPECT_EQ(YAML::Load(pinned.out)["jobs"].as<int>(), 1);
+  EXPECT_EQ(YAML::Load(simulate(sweep).out)["jobs"].as<int>(), std::min(3, CPU_COUNT(&allowed)));
+  EXPECT_EQ(YAML::Load(simulate(with(sweep, {"--jobs", "7"})).out)["jobs"].as<int>(), 3) << "no more than runs";
 }
 
 TEST(SweepProgram, ctrlCKeepsTheFinishedRuns) {
