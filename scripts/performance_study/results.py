@@ -41,6 +41,7 @@ class Results:
     """All measurements by program and benchmark name, without the parts of the name that only say how it was run."""
 
     def __init__(self, folder):
+        self.sweeps = self.read_sweeps(pathlib.Path(folder) / "sweep.jobs")
         self.programs, self.contexts, self.commits, self.repetitions = {}, {}, set(), 0
         for file in sorted(pathlib.Path(folder).glob("*.json")):
             try:
@@ -58,6 +59,16 @@ class Results:
                 name = re.sub(r"/(iterations:\d+|manual_time|repeats:\d+)", "", entry["name"])
                 measurements.setdefault(name, Measurement(name)).add(entry)
             self.repetitions = max([self.repetitions] + [len(m.times) for m in measurements.values()])
+
+    @staticmethod
+    def read_sweeps(file):
+        """Shortest wall time and shortest CPU time [s] of the sweep by number of jobs."""
+        times = {}
+        for line in file.read_text().splitlines() if file.exists() else []:
+            run = json.loads(line)
+            wall, cpu = times.get(run["jobs"], (float("inf"), float("inf")))
+            times[run["jobs"]] = (min(wall, run["wall_time"]), min(cpu, run["cpu_time"]))
+        return times
 
     def get(self, program, name):
         """The measurement, or None when it is missing or failed."""

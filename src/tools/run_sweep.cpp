@@ -11,6 +11,7 @@
 #include <thread>
 
 #include <sched.h>
+#include <time.h>
 
 #include "heerk_rotor/tools/conclude_run.hpp"
 #include "heerk_rotor/tools/row_file.hpp"
@@ -72,7 +73,14 @@ struct SweepTotals {
   std::uint64_t runs, done, failed;
   std::size_t jobs;
   double wall_time;  // [s]
+  double cpu_time;   // of all threads [s]
 };
+
+double processSeconds() {
+  timespec now{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 std::string text(const SweepTotals& t) {
   char buffer[256];
@@ -84,8 +92,8 @@ std::string text(const SweepTotals& t) {
 std::string json(const SweepTotals& t, const std::string& status) {
   char buffer[256];
   const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
-  std::snprintf(buffer, sizeof buffer, "{\"runs\": %llu, \"done\": %llu, \"failed\": %llu, \"jobs\": %zu, \"wall_time\": %.17g, \"status\": \"%s\"}\n", number(t.runs), number(t.done), number(t.failed),
-                t.jobs, t.wall_time, status.c_str());
+  std::snprintf(buffer, sizeof buffer, "{\"runs\": %llu, \"done\": %llu, \"failed\": %llu, \"jobs\": %zu, \"wall_time\": %.17g, \"cpu_time\": %.17g, \"status\": \"%s\"}\n", number(t.runs), number(t.done), number(t.failed),
+                t.jobs, t.wall_time, t.cpu_time, status.c_str());
   return buffer;
 }
 
@@ -106,6 +114,7 @@ int runSweep(const SimulateOptions& options) {
   const std::size_t jobs = static_cast<std::size_t>(std::min<std::uint64_t>(options.jobs.value_or(processors()), sweep.size()));
   const StopRequest stop;
   const auto start = std::chrono::steady_clock::now();
+  const double cpu_start = processSeconds();
   SweepProgress progress(sweep.size(), !options.quiet);
   FinishedLines finished;
   finished.working = jobs;
@@ -141,7 +150,7 @@ int runSweep(const SimulateOptions& options) {
   progress.finish();
 
   const double wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const SweepTotals totals = {sweep.size(), finished.done, finished.failed, jobs, wall_time};
+  const SweepTotals totals = {sweep.size(), finished.done, finished.failed, jobs, wall_time, processSeconds() - cpu_start};
   const bool complete = file.close();
   if (!complete) complain(options.outputs.front() + ": writing failed (" + std::strerror(file.error()) + "); the rows before are complete");
   if (finished.failed > 0) complain("run " + std::to_string(finished.first_failed) + " failed first; " + finished.first_failure);
