@@ -81,6 +81,13 @@ class PerformanceReport(unittest.TestCase):
         _, text, _ = self.report()
         self.assertIn("\n## Work and precision\n\n![error](performance/lag.png) [there](https://example.org) [up](#bounds)\n", text)
 
+    def test_the_sweep_by_two_jobs_is_held_against_one(self):
+        self.write("lag_rotor_step", entry("step/absolute_lag_3e4", 400.0, h=1e-3))
+        runs = [(1, 4.2, 4.1), (2, 3.0, 4.3), (1, 4.0, 3.9), (2, 2.0, 4.0)]
+        (self.folder / "results" / "sweep.jobs").write_text("".join(json.dumps({"jobs": jobs, "wall_time": wall, "cpu_time": cpu}) + "\n" for jobs, wall, cpu in runs))
+        _, text, _ = self.report()
+        self.assertIn("2.00 (wall times 4.00 s and 2.00 s, CPU times 3.90 s and 4.00 s) | yes |", text)
+
     def test_without_results_it_says_what_it_expected(self):
         (self.folder / "results").mkdir()
         status, text, said = self.report()
