@@ -14,6 +14,8 @@ from lag_rotor_study.text import Checks, table
 from performance_study import figures, tables
 from performance_study.results import Results, compiler, machine
 
+NOT_MEASURED = "machine not free"
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
@@ -25,7 +27,11 @@ def bounds(results, checks):
     if 1 in results.sweeps and 2 in results.sweeps:
         (wall_1, cpu_1), (wall_2, cpu_2) = results.sweeps[1], results.sweeps[2]
         claim = "sweep of eight runs of the elastic rotor: throughput of two jobs at least 1.9 times that of one"
-        checks.add(claim, wall_1 >= 1.9 * wall_2, f"{wall_1 / wall_2:.2f} (wall times {wall_1:.2f} s and {wall_2:.2f} s, CPU times {cpu_1:.2f} s and {cpu_2:.2f} s)")
+        found = f"wall times {wall_1:.2f} s and {wall_2:.2f} s, CPU times {cpu_1:.2f} s and {cpu_2:.2f} s"
+        if cpu_1 >= 0.9 * wall_1:
+            checks.add(claim, wall_1 >= 1.9 * wall_2, f"{wall_1 / wall_2:.2f} ({found})")
+        else:  # other work takes part of each processor, and the system may share them by groups of processes, whatever their number of threads
+            checks.rows.append([claim, f"one job got {100 * cpu_1 / wall_1:.0f} % of a processor; {found}", NOT_MEASURED])
 
 
 def included(folder):
@@ -82,7 +88,7 @@ warm-up and from a saved state, through the general coupled system, without obse
 
 ## Bounds
 
-{table(["bound", "measured", "met"], [[claim, found, "yes" if "passed" in state else "**no**"] for claim, found, state in checks.rows])}
+{table(["bound", "measured", "met"], [[claim, found, {"passed": "yes", NOT_MEASURED: NOT_MEASURED}.get(state, "**no**")] for claim, found, state in checks.rows])}
 ## Cost of a step
 
 {step_figure}
@@ -121,7 +127,8 @@ In real time only the first three are on the step thread; the rest has threads o
     write_csv(results, folder / "measurements.csv")
     for error in errors:
         print(f"performance_report: {error}", file=sys.stderr)
-    print(f"{output / 'performance.md'}: {len(checks.rows) - checks.failed} of {len(checks.rows)} bounds met")
+    met = sum(state == "passed" for _, _, state in checks.rows)
+    print(f"{output / 'performance.md'}: {met} of {len(checks.rows)} bounds met")
     return 1 if errors else 0
 
 

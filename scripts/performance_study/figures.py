@@ -115,7 +115,8 @@ def scaling(results, folder, checks):
         upper = exponent(sizes[half], times[half])
         if bound:
             checks.add(f"time grows with {title} with an exponent of at most {bound:g}", slope <= bound, f"{slope:.2f} from {int(sizes[0])} to {int(sizes[-1])}")
-        rows.append([title, f"{int(sizes[0])} .. {int(sizes[-1])}", time_text(times[0]), time_text(times[-1]), f"{slope:.2f}", f"{upper:.2f}", f"<= {bound:g}" if bound else ""])
+        residuals = " .. ".join(f"{m.counters.get('residuals/solve', 0.0):.1f}" for m in (series[0][1], series[-1][1]))
+        rows.append([title, f"{int(sizes[0])} .. {int(sizes[-1])}", time_text(times[0]), time_text(times[-1]), residuals, f"{slope:.2f}", f"{upper:.2f}", f"<= {bound:g}" if bound else ""])
         axis = panels[unit]
         axis.set_visible(True)
         colour = COLOURS[index % len(COLOURS)]
@@ -136,7 +137,7 @@ def scaling(results, folder, checks):
         axis.yaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
         axis.grid(alpha=0.3)
         axis.legend(fontsize=8)
-    text = table(["grows with", "from .. to", "smallest", "largest", "exponent", "upper half", "bound"], rows)
+    text = table(["grows with", "from .. to", "smallest", "largest", "residuals per solve", "exponent", "upper half", "bound"], rows)
     return save(figure, folder, "scaling.png", "Growth of the cost of a step") + "\n" + text
 
 

@@ -46,7 +46,7 @@ class PerformanceReport(unittest.TestCase):
         self.write("scaling", *[entry(f"blades/{n}", 1000.0 * n ** 1.5) for n in (2, 4, 8)], *[entry(f"elements/{n}", 10.0 * n ** 1.5) for n in (5, 10, 20, 40)])
         status, text, _ = self.report()
         self.assertEqual(status, 0)
-        self.assertIn("| blades | 2 .. 8 | 2.83 µs | 22.6 µs | 1.50 | 1.50 | <= 1.1 |", text)
+        self.assertIn("| blades | 2 .. 8 | 2.83 µs | 22.6 µs | 0.0 .. 0.0 | 1.50 | 1.50 | <= 1.1 |", text)
         self.assertIn("time grows with blades with an exponent of at most 1.1 | 1.50 from 2 to 8 | **no** |", text)
         self.assertIn("an exponent of at most 2 | 1.50 from 5 to 40 | yes |", text)
         self.assertTrue((self.folder / "docs" / "performance" / "scaling.png").exists())
@@ -83,10 +83,11 @@ class PerformanceReport(unittest.TestCase):
 
     def test_the_sweep_by_two_jobs_is_held_against_one(self):
         self.write("lag_rotor_step", entry("step/absolute_lag_3e4", 400.0, h=1e-3))
-        runs = [(1, 4.2, 4.1), (2, 3.0, 4.3), (1, 4.0, 3.9), (2, 2.0, 4.0)]
-        (self.folder / "results" / "sweep.jobs").write_text("".join(json.dumps({"jobs": jobs, "wall_time": wall, "cpu_time": cpu}) + "\n" for jobs, wall, cpu in runs))
-        _, text, _ = self.report()
-        self.assertIn("2.00 (wall times 4.00 s and 2.00 s, CPU times 3.90 s and 4.00 s) | yes |", text)
+        for runs, expected in (([(1, 4.2, 4.1), (2, 3.0, 4.3), (1, 4.0, 3.9), (2, 2.0, 4.0)], "| 2.00 (wall times 4.00 s and 2.00 s, CPU times 3.90 s and 4.00 s) | yes |"),
+                               ([(1, 8.0, 4.0), (2, 8.0, 4.0)], "| one job got 50 % of a processor; wall times 8.00 s and 8.00 s, CPU times 4.00 s and 4.00 s | machine not free |")):
+            (self.folder / "results" / "sweep.jobs").write_text("".join(json.dumps({"jobs": jobs, "wall_time": wall, "cpu_time": cpu}) + "\n" for jobs, wall, cpu in runs))
+            _, text, _ = self.report()
+            self.assertIn(expected, text)
 
     def test_without_results_it_says_what_it_expected(self):
         (self.folder / "results").mkdir()
