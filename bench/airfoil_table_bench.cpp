@@ -1,5 +1,6 @@
 // Cost of the table lookup and of section loads, over inputs that wander through the table so that neither the branch
 // predictor nor one cached cell flatters the result. Time per item: one lookup or one section of one blade.
+#include <cmath>
 #include <random>
 #include <string>
 #include <type_traits>
@@ -19,9 +20,18 @@ constexpr int kInputs = 1024;
 
 C81Deck deck() { return readC81File(std::string(HEERK_SOURCE_DIR) + "/config/airfoils/naca0012_analytic.c81").deck; }
 
+/// A smooth airfoil on a grid of alpha_count x mach_count points, evenly spaced.
+C81Deck gridDeck(int alpha_count, int mach_count) {
+  C81Block block;
+  for (int j = 0; j < mach_count; ++j) block.mach.push_back(static_cast<double>(j) / (mach_count - 1));
+  for (int i = 0; i < alpha_count; ++i) block.alpha_deg.push_back(-180.0 + 360.0 * i / (alpha_count - 1));
+  for (const double alpha : block.alpha_deg)
+    for (const double mach : block.mach) block.values.push_back(std::sin(alpha * M_PI / 180.0) * (1.0 + 0.3 * mach * mach));
+  return {"grid", block, block, block};
+}
+
 template <int N>
-void lookup(benchmark::State& state, TableInterpolation interpolation) {
-  const AirfoilTable table(deck(), interpolation);
+void lookup(benchmark::State& state, const AirfoilTable& table) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> alpha(-0.3, 0.3), mach(0.1, 0.9);
   std::vector<Lanes<N>> alphas(kInputs), machs(kInputs);
@@ -78,7 +88,11 @@ void withLanes(benchmark::State& state, const Run& run) {
 }
 
 void airfoilLookup(benchmark::State& state, TableInterpolation interpolation) {
-  withLanes(state, [&](auto lanes) { lookup<lanes>(state, interpolation); });
+  withLanes(state, [&](auto lanes) { lookup<lanes>(state, AirfoilTable(deck(), interpolation)); });
+}
+/// Four lanes; arguments: points in alpha and in Mach number. The largest table is 1.5 MB, beyond the second-level cache.
+void lookupOfSize(benchmark::State& state) {
+  lookup<4>(state, AirfoilTable(gridDeck(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)))));
 }
 void tableSection(benchmark::State& state, TableInterpolation interpolation, double elastic_axis) {
   withLanes(state, [&](auto lanes) { sections<lanes>(state, AirfoilTable(deck(), interpolation), elastic_axis); });
@@ -90,6 +104,7 @@ void linearSection(benchmark::State& state) {
 constexpr TableInterpolation kLinear = TableInterpolation::kLinear, kCubic = TableInterpolation::kMonotoneCubic;
 BENCHMARK_CAPTURE(airfoilLookup, linear, kLinear)->ArgName("lanes")->Arg(1)->Arg(4)->Arg(8);
 BENCHMARK_CAPTURE(airfoilLookup, cubic, kCubic)->ArgName("lanes")->Arg(1)->Arg(4)->Arg(8);
+BENCHMARK(lookupOfSize)->ArgNames({"alpha", "mach"})->Args({19, 3})->Args({37, 6})->Args({73, 11})->Args({181, 21})->Args({361, 41})->Args({721, 61});
 BENCHMARK(linearSection)->ArgName("lanes")->Arg(1)->Arg(4)->Arg(8);
 BENCHMARK_CAPTURE(tableSection, linear, kLinear, 0.25)->ArgName("lanes")->Arg(1)->Arg(4)->Arg(8);
 BENCHMARK_CAPTURE(tableSection, linear_offset_axis, kLinear, 0.27)->ArgName("lanes")->Arg(1)->Arg(4)->Arg(8);

@@ -17,7 +17,8 @@
 namespace heerk_rotor {
 namespace {
 
-constexpr int kWarmUp = 1800;  // steps, five revolutions
+constexpr int kWarmUp = 1800;      // steps, five revolutions
+constexpr int kIterations = 3600;  // steps, ten revolutions
 
 double cpuMicroseconds() {
   timespec now{};
@@ -72,6 +73,7 @@ void report(benchmark::State& state, const Simulation& simulation, const SolverC
   const SolverCounters& after = simulation.solver().counters();
   const double solves = static_cast<double>(after.solves - before.solves);
   state.counters["residuals/solve"] = static_cast<double>(after.residual_evaluations - before.residual_evaluations) / solves;
+  state.counters["h"] = simulation.stepSize();  // [s] of simulated time per step
   state.counters["factorizations"] = static_cast<double>(after.factorizations - before.factorizations);
   state.counters["cpu_median_us"] = median(std::move(cpu));
   std::sort(wall.begin(), wall.end());
@@ -103,16 +105,16 @@ void step(benchmark::State& state, const std::vector<std::string>& overrides) {
 
 /// Medians per step of: structure (rotor), airloads, all other models, propagation by the matrix functions of S, and the rest: Newton's
 /// linear algebra, moving of data and control. Reading the clock adds about 5 % to the models' shares.
-void parts(benchmark::State& state) {
+void parts(benchmark::State& state, const std::vector<std::string>& overrides) {
   std::map<std::string, double> spent;
-  CoupledSystem system = buildSystem(configuration({}));
+  CoupledSystem system = buildSystem(configuration(overrides));
   for (const CoupledSystem::Subsystem& subsystem : system.subsystems()) {
     // The system is ours and not const; its interface only keeps users from exchanging models of a running simulation.
     auto& model = const_cast<std::unique_ptr<SubsystemModel>&>(subsystem.model);
     const std::string part = subsystem.name == "rotor" ? "structure" : subsystem.name == "airloads" ? "airloads" : "other_models";
     model = std::make_unique<Timed>(std::move(model), spent[part]);
   }
-  const auto ordinary = buildSimulation(configuration({}));
+  const auto ordinary = buildSimulation(configuration(overrides));
   const StepOptions options = ordinary->options();
   const Tableau& method = tableau(options.method);
   std::vector<std::unique_ptr<LinearPropagator>> propagators;
@@ -158,10 +160,12 @@ void parts(benchmark::State& state) {
   for (auto& [name, times] : shares) state.counters[name + "_us"] = median(times);
 }
 
-BENCHMARK_CAPTURE(step, bo105, {})->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(7200);
-BENCHMARK_CAPTURE(step, bo105_linear_airloads, {"subsystems.airloads.polar=linear"})->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(7200);
-BENCHMARK_CAPTURE(step, bo105_rigid_mount, {"subsystems.fuselage.mode=rigid"})->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(7200);
-BENCHMARK(parts)->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(7200);
+BENCHMARK_CAPTURE(step, bo105, {})->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(kIterations);
+BENCHMARK_CAPTURE(step, bo105_20_sections, {"subsystems.rotor.sections=20"})->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(kIterations);
+BENCHMARK_CAPTURE(step, bo105_linear_airloads, {"subsystems.airloads.polar=linear"})->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(kIterations);
+BENCHMARK_CAPTURE(step, bo105_rigid_mount, {"subsystems.fuselage.mode=rigid"})->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(kIterations);
+BENCHMARK_CAPTURE(parts, bo105_20_sections, {"subsystems.rotor.sections=20"})->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(kIterations);
+BENCHMARK_CAPTURE(parts, bo105, {})->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(kIterations);
 
 }  // namespace
 }  // namespace heerk_rotor

@@ -13,27 +13,30 @@ inline std::unique_ptr<Simulation> make(const std::string& config, const std::ve
   return buildSimulation(Configuration::load(std::string(HEERK_SOURCE_DIR) + "/config/" + config, overrides));
 }
 
-inline void step(benchmark::State& state, const std::string& config, const std::vector<std::string>& overrides) {
-  const auto simulation = make(config, overrides);
-  const Vector command = simulation->system().defaultCommand();
-  for (int k = 0; k < 1000; ++k) simulation->step(command);
-  const Simulation::Checkpoint start = simulation->checkpoint();
-  const SolverCounters before = simulation->solver().counters();
+/// Steps on from a saved state after `warm_up` steps; returns to it every `length` steps. Counters: what a solve of the algebraic part took.
+inline void stepOn(benchmark::State& state, Simulation& simulation, int warm_up = 1000, std::uint64_t length = 20000) {
+  const Vector command = simulation.system().defaultCommand();
+  for (int k = 0; k < warm_up; ++k) simulation.step(command);
+  const Simulation::Checkpoint start = simulation.checkpoint();
+  const SolverCounters before = simulation.solver().counters();
   for (auto _ : state) {
-    if (simulation->step(command) != StepStatus::kOk) {
+    if (simulation.step(command) != StepStatus::kOk) {
       state.SkipWithError("the step failed");
       break;
     }
-    if (simulation->stepCount() == start.step + 20000) {
+    if (simulation.stepCount() == start.step + length) {
       state.PauseTiming();
-      simulation->restore(start);
+      simulation.restore(start);
       state.ResumeTiming();
     }
   }
-  const SolverCounters& after = simulation->solver().counters();
+  const SolverCounters& after = simulation.solver().counters();
   const double solves = static_cast<double>(after.solves - before.solves);
   state.counters["residuals/solve"] = static_cast<double>(after.residual_evaluations - before.residual_evaluations) / solves;
+  state.counters["h"] = simulation.stepSize();  // [s] of simulated time per step
   state.counters["factorizations"] = static_cast<double>(after.factorizations - before.factorizations);
 }
+
+inline void step(benchmark::State& state, const std::string& config, const std::vector<std::string>& overrides) { stepOn(state, *make(config, overrides)); }
 
 }  // namespace heerk_rotor

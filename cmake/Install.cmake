@@ -23,7 +23,7 @@ install(DIRECTORY config launch urdf rviz lcm DESTINATION ${CATKIN_PACKAGE_SHARE
 install(FILES LICENSE DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 
 file(GLOB scripts CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/scripts/*.py)
-list(FILTER scripts EXCLUDE REGEX "(paper_lag_rotor|check_includes|robot_description)\\.py$")  # work on the source tree
+list(FILTER scripts EXCLUDE REGEX "(paper_lag_rotor|check_includes|performance_report|robot_description)\\.py$")  # work on the source tree
 install(PROGRAMS ${scripts} DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(PROGRAMS scripts/robot_description.py DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/scripts)  # rotor.launch calls it; beside urdf/
 install(DIRECTORY scripts/rotor_analysis DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION} FILES_MATCHING PATTERN "*.py")

@@ -22,7 +22,7 @@ void checkSections(const Document& document, Problems& problems) {
     const std::string& name = entry.first.Scalar();
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       problems.add({document.place(name), name, asWritten(entry.second),
-                    "one of the sections description, simulation, trim, subsystems, connections" + didYouMean(name, known)});
+                    "one of the sections description, simulation, trim, subsystems, connections" + didYouMean(name, known), "", true});
     } else if (name == "description" && !entry.second.IsScalar()) {
       problems.add({document.place(name), name, asWritten(entry.second), "text"});
     }

@@ -116,7 +116,7 @@ void applyOverride(Document& document, const std::string& assignment, Problems& 
       parent[names[i]] = child;
     }
     if (!child.IsDefined()) {
-      problems.add({place, key, shortened(written), "a known key" + hint(document, key, parent_key, parent, names[i])});
+      problems.add({place, key, shortened(written), "a known key" + hint(document, key, parent_key, parent, names[i]), "", true});
       return;
     }
     if (child.IsNull()) child = YAML::Node(YAML::NodeType::Map);  // `initial:` with nothing after it
@@ -130,10 +130,10 @@ void applyOverride(Document& document, const std::string& assignment, Problems& 
   } else if (parent.IsSequence() && findChild(parent, name).IsDefined()) {
     parent[std::stoul(name)] = value.root;
   } else if (parent.IsSequence()) {
-    problems.add({place, key, shortened(written), "an index from 0 to " + std::to_string(parent.size() - 1) + ", because " + parent_key + " is a list of " + std::to_string(parent.size())});
+    problems.add({place, key, shortened(written), "an index from 0 to " + std::to_string(parent.size() - 1) + ", because " + parent_key + " is a list of " + std::to_string(parent.size()), "", true});
     return;
   } else {
-    problems.add({place, key, shortened(written), "a key within a mapping or list, but " + parent_key + " is one value, " + asWritten(parent)});
+    problems.add({place, key, shortened(written), "a key within a mapping or list, but " + parent_key + " is one value, " + asWritten(parent), "", true});
     return;
   }
   erasePlaces(document, key);

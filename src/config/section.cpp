@@ -68,7 +68,7 @@ double Section::number(const std::string& key, double fallback, const std::strin
   double result = fallback;
   if (!value.IsDefined()) return fallback;
   if (readNumber(value, result) && contains(range, result)) return result;
-  problem(key, describe(range, unit));
+  numberProblem(path_ + "." + key, value, describe(range, unit), unit);
   return fallback;
 }
 
@@ -84,7 +84,7 @@ std::vector<double> Section::numbers(const std::string& key, std::size_t size, d
   if (value.IsScalar()) return std::vector<double>(size, number(key, fallback, unit, range));
   if (!value.IsSequence() || value.size() != size) {
     const std::string found = value.IsSequence() ? ", not of " + std::to_string(value.size()) : "";
-    problem(key, describe(range, unit) + ", or a list of " + std::to_string(size) + " such numbers" + found);
+    numberProblem(path_ + "." + key, value, describe(range, unit) + ", or a list of " + std::to_string(size) + " such numbers" + found, unit);
     return result;
   }
   for (std::size_t i = 0; i < size; ++i) {
@@ -93,7 +93,7 @@ std::vector<double> Section::numbers(const std::string& key, std::size_t size, d
       result[i] = element;
     } else {
       const std::string path = path_ + "." + key + "." + std::to_string(i);
-      problems_->add({configuration_->where(path), path, asWritten(value[i]), describe(range, unit)});
+      numberProblem(path, value[i], describe(range, unit), unit);
     }
   }
   return result;
@@ -104,7 +104,7 @@ std::vector<double> Section::list(const std::string& key, const std::vector<doub
   if (!value.IsDefined()) return fallback;
   if (value.IsSequence() && value.size() > 0) return numbers(key, value.size(), 0.0, unit, range);
   if (value.IsScalar()) return {number(key, fallback.empty() ? 0.0 : fallback.front(), unit, range)};
-  problem(key, describe(range, unit) + ", or a list of such numbers");
+  numberProblem(path_ + "." + key, value, describe(range, unit) + ", or a list of such numbers", unit);
   return fallback;
 }
 
@@ -175,6 +175,10 @@ void Section::problem(const std::string& key, const std::string& expected) {
   problems_->add({configuration_->where(path), path, asWritten(findValue(configuration_->root(), path)), expected});
 }
 
+void Section::numberProblem(const std::string& path, const YAML::Node& value, const std::string& expected, const std::string& unit) {
+  problems_->add({configuration_->where(path), path, asWritten(value), expected, unit});
+}
+
 void Section::finish() {
   if (!node_.IsDefined() || !node_.IsMap()) return;
   std::vector<std::string> unknown;
@@ -185,7 +189,8 @@ void Section::finish() {
   const std::string nothing_known = known_.empty() ? "no key here" : "one of the keys " + enumeration(known_);
   for (const std::string& key : unknown) {
     const std::string nearest = didYouMean(key, known_);
-    problem(key, nearest.empty() ? nothing_known : "a known key" + nearest);
+    const std::string path = path_ + "." + key;
+    problems_->add({configuration_->where(path), path, asWritten(findChild(node_, key)), nearest.empty() ? nothing_known : "a known key" + nearest, "", true});
   }
   known_.insert(known_.end(), unknown.begin(), unknown.end());
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "heerk_rotor/tools/csv_cell.hpp"
 #include "heerk_rotor/tools/number_text.hpp"
 
 namespace heerk_rotor {
@@ -10,11 +11,7 @@ namespace {
 
 const char* const kFixedColumns = "step [-],time [s],azimuth [rad]";
 
-/// Quoted when the unit has a comma (ports of forces and moments: "N, N m"), so that a row of names has as many cells as a row of values.
-std::string cell(const Signal& signal) {
-  const std::string text = signal.name + " [" + (signal.unit.empty() ? "-" : signal.unit) + "]";
-  return text.find(',') == std::string::npos ? "," + text : ",\"" + text + "\"";
-}
+std::string cell(const Signal& signal) { return "," + csvHeaderCell(signal.name, signal.unit); }
 
 std::size_t longestRow(const std::vector<Signal>& signals) {
   std::size_t header = std::strlen(kFixedColumns) + 1;

@@ -26,6 +26,19 @@ char* RowFile::beginRow() noexcept {
   return error_ == 0 ? buffer_.data() + used_ : nullptr;
 }
 
+void RowFile::write(const std::string& rows) noexcept {
+  for (std::size_t begin = 0; begin < rows.size() && error_ == 0;) {
+    // As many complete rows as the buffer holds; a row longer than that goes in pieces.
+    std::size_t count = std::min(rows.size() - begin, buffer_.size());
+    const std::size_t last = rows.rfind('\n', begin + count - 1);
+    if (last != std::string::npos && last >= begin) count = last + 1 - begin;
+    std::copy_n(rows.data() + begin, count, buffer_.data());
+    used_ = count;
+    flush();
+    begin += count;
+  }
+}
+
 void RowFile::flush() noexcept {
   std::size_t done = 0;
   while (error_ == 0 && done < used_) {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <iostream>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 
 #include "heerk_rotor/assembly/build_simulation.hpp"
@@ -104,7 +104,8 @@ RunSetup setUpRun(const SimulateOptions& options) {
 namespace {
 
 /// What the model would clamp is clamped here already, so that recorded commands are those in effect.
-void clampToRange(std::vector<CommandRow>& rows, const std::array<Index, 3>& entries, const CoupledSystem& system, const std::string& file) {
+void clampToRange(std::vector<CommandRow>& rows, const std::array<Index, 3>& entries, const CoupledSystem& system, const std::string& file,
+                  std::vector<std::string>& warnings) {
   for (std::size_t k = 0; k < entries.size(); ++k) {
     const double low = system.commandLow()[entries[k]], high = system.commandHigh()[entries[k]];
     std::size_t clamped = 0;
@@ -115,15 +116,17 @@ void clampToRange(std::vector<CommandRow>& rows, const std::array<Index, 3>& ent
       if (clamped++ == 0) first = row.time;
       row.commands[k] = allowed;
     }
-    if (clamped > 0)
-      std::cerr << "warning: " << file << ": " << system.commandNames()[static_cast<std::size_t>(entries[k])] << " of " << clamped << " rows clamped to the travel ["
-                << low << ", " << high << "] rad, first at " << first << " s\n";
+    if (clamped == 0) continue;
+    std::ostringstream warning;
+    warning << file << ": " << system.commandNames()[static_cast<std::size_t>(entries[k])] << " of " << clamped << " rows clamped to the travel [" << low << ", " << high
+            << "] rad, first at " << first << " s";
+    warnings.push_back(warning.str());
   }
 }
 
 }  // namespace
 
-CommandSchedule openCommands(const std::string& file, const Simulation& simulation) {
+CommandSchedule openCommands(const std::string& file, const Simulation& simulation, std::vector<std::string>& warnings) {
   std::vector<CommandRow> rows = readCommandFile(file);
   const CommandView commands(simulation.system());
   const std::array<Index, 3> entries = {commands.collective(), commands.lateralCyclic(), commands.longitudinalCyclic()};
@@ -137,7 +140,7 @@ CommandSchedule openCommands(const std::string& file, const Simulation& simulati
                         (taken.empty() ? std::string("no commands") : taken)});
       throw ConfigurationError(problems);
     }
-  clampToRange(rows, entries, simulation.system(), file);
+  clampToRange(rows, entries, simulation.system(), file, warnings);
   // A millionth of a step absorbs the round-off of t = t0 + k h up to about 1e9 steps.
   return CommandSchedule(std::move(rows), entries, 1e-6 * simulation.stepSize());
 }

@@ -10,6 +10,7 @@
 #include "heerk_rotor/tools/limit_watch.hpp"
 #include "heerk_rotor/tools/run_analyses.hpp"
 #include "heerk_rotor/tools/run_length.hpp"
+#include "heerk_rotor/tools/run_sweep.hpp"
 #include "heerk_rotor/tools/signal_selection.hpp"
 #include "heerk_rotor/tools/stop_request.hpp"
 
@@ -34,8 +35,10 @@ int run(const SimulateOptions& options, RunSetup& setup) {
   const std::vector<Signal> signals = selectSignals(simulation.system(), options.signals);
   const RunLength length = runLength(options, setup.settings, simulation.stepSize());
   std::optional<CommandSchedule> commands;
-  if (!options.commands.empty()) commands = openCommands(options.commands, simulation);
+  std::vector<std::string> warnings;
+  if (!options.commands.empty()) commands = openCommands(options.commands, simulation, warnings);
   Recorders recorders = openRecorders(options, setup, signals);
+  for (const std::string& warning : warnings) warn(options, warning);
   warn(options, length.warning);
   warn(options, unusedSignals(options));
   if (!options.quiet) warn(options, stepWarning(setup.configuration, simulation, setup.command, setup.settings.revolution(), length.steps));
@@ -55,6 +58,7 @@ int run(const SimulateOptions& options, RunSetup& setup) {
 }
 
 int analyseAndRun(const SimulateOptions& options) {
+  if (options.isSweep() && !options.list_signals) return runSweep(options);
   RunSetup setup = setUpRun(options);
   if (options.list_signals) return print(signalTable(setup.simulation->system()));
   for (const std::string& note : setup.notes) warn(options, note);

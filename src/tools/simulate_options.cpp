@@ -20,11 +20,17 @@ const char* const kFooter =
     "configuration; 3 no trim was found, the solution became non-finite or the solver stalled (the last revolution before it is written to\n"
     "OUTPUT.failure.csv); 128 + signal number when interrupted (130 after Ctrl-C), with everything recorded until then.\n"
     "After --trim or --stability a run follows only when one of --duration, --revolutions, --output, --save-snapshot asks for it.\n"
-    "Example: simulate config/lag_rotor.yaml --set subsystems.mast.stiffness=3e6 --duration 10 --output lag.csv";
+    "A sweep runs the configuration once for every combination of values and writes one line per run: the values, status, and of every signal\n"
+    "final value, mean and half peak-to-peak over the last revolution, min and max over the run. KEY=3e4,3e6 lists values, KEY=FROM:TO:COUNT has\n"
+    "equal steps, KEY=FROM:TO:COUNT:log equal ratios. A failed run is a line with the reason, and exit status 3.\n"
+    "Example: simulate config/lag_rotor.yaml --set subsystems.mast.stiffness=3e6 --duration 10 --output lag.csv\n"
+    "         simulate config/bo105.yaml --sweep subsystems.mast.stiffness=3e5:3e7:9:log --revolutions 20 --output sweep.csv";
+
+constexpr std::uint64_t kMostJobs = 1024;
 
 /// Words of the command line before they mean anything.
 struct Words {
-  std::string duration, revolutions, every, signals, coupling;
+  std::string duration, revolutions, every, signals, coupling, jobs;
 };
 
 void declare(CLI::App& app, SimulateOptions& options, Words& words) {
@@ -46,6 +52,10 @@ void declare(CLI::App& app, SimulateOptions& options, Words& words) {
   app.add_option("--show-coupling", words.coupling, "print subsystems, connections, loops and their sparsity; draw them into a picture")
       ->type_name("[FILE.svg]")->expected(0, 1);
   app.add_flag("--evaluation-counts", options.evaluation_counts, "evaluations of f and g per step and subsystem, over one revolution");
+  app.add_option("--sweep", options.sweeps, "one run for each of these values of a key; repeated: for all combinations")
+      ->type_name("KEY=VALUES")->allow_extra_args(false);
+  app.add_option("--sweep-file", options.sweep_file, "runs as rows under keys (.csv), or as a list of KEY=VALUE lists (.yaml)")->type_name("FILE");
+  app.add_option("--jobs", words.jobs, "runs of a sweep at a time (default: one per processor); the result does not depend on it")->type_name("N");
   app.add_flag("--list-signals", options.list_signals, "print name, unit and meaning of every signal and stop");
   app.add_flag("--json", options.json, "print the summary of the run as one JSON object");
   app.add_flag("--quiet", options.quiet, "no progress bar, no summary, no warnings");
@@ -92,6 +102,32 @@ std::uint64_t readCount(const std::string& word, const std::string& key, Problem
   return value;
 }
 
+std::optional<std::uint64_t> readJobs(const std::string& word, Problems& problems) {
+  if (word.empty()) return {};
+  const bool digits_only = word.size() <= 4 && word.find_first_not_of("0123456789") == std::string::npos;
+  const std::uint64_t value = digits_only ? std::strtoull(word.c_str(), nullptr, 10) : 0;
+  if (value >= 1 && value <= kMostJobs) return value;
+  problems.add({"command line", "--jobs", word, "a whole number from 1 to " + std::to_string(kMostJobs)});
+  return {};
+}
+
+/// What a sweep needs, and what has no meaning with many runs.
+void checkSweep(const SimulateOptions& options, Problems& problems) {
+  if (!options.isSweep()) {
+    if (options.jobs) problems.add({"command line", "--jobs", std::to_string(*options.jobs), "a sweep: --sweep KEY=VALUES or --sweep-file FILE"});
+    return;
+  }
+  if (options.list_signals) return;
+  if (options.outputs.size() != 1 || outputKind(options.outputs.front()) != OutputKind::kCsv)
+    problems.add({"command line", "--output", options.outputs.empty() ? "nothing" : std::to_string(options.outputs.size()) + " files, first " + options.outputs.front(),
+                  "one FILE.csv, the table of the sweep"});
+  const std::vector<std::pair<const char*, bool>> single = {{"--load-snapshot", !options.load_snapshot.empty()}, {"--save-snapshot", !options.save_snapshot.empty()},
+                                                            {"--save-start", !options.save_start.empty()},       {"--stability", options.stability},
+                                                            {"--show-coupling", options.show_coupling.has_value()}, {"--evaluation-counts", options.evaluation_counts}};
+  for (const auto& [name, given] : single)
+    if (given) problems.add({"command line", name, "given with a sweep", "one run, without --sweep and --sweep-file"});
+}
+
 std::vector<std::string> splitSignals(const std::string& text, Problems& problems) {
   std::vector<std::string> names;
   std::size_t begin = 0;
@@ -120,6 +156,7 @@ void checkFiles(const SimulateOptions& options, Problems& problems) {
   std::vector<std::pair<std::string, std::string>> taken;  // option, file
   if (!options.configuration.empty()) taken.emplace_back("CONFIG", options.configuration);
   if (!options.commands.empty()) taken.emplace_back("--commands", options.commands);
+  if (!options.sweep_file.empty()) taken.emplace_back("--sweep-file", options.sweep_file);
   const auto claim = [&](const std::string& option, const std::string& file) {
     for (const auto& [other_option, other_file] : taken)
       if (sameFile(file, other_file)) {
@@ -179,9 +216,11 @@ SimulateOptions parseSimulateOptions(int argc, const char* const* argv) {
   if (!words.duration.empty() && !words.revolutions.empty())
     problems.add({"command line", "--revolutions", words.revolutions, "either --duration or --revolutions, not both"});
   options.every = readCount(words.every, "--every", problems);
+  options.jobs = readJobs(words.jobs, problems);
+  checkSweep(options, problems);
   if (app.count("--signals") > 0) options.signals = splitSignals(words.signals, problems);
   // An option given as an empty word would otherwise silently mean its default.
-  for (const char* name : {"--duration", "--revolutions", "--every", "--commands", "--save-snapshot", "--load-snapshot"})
+  for (const char* name : {"--duration", "--revolutions", "--every", "--commands", "--save-snapshot", "--load-snapshot", "--sweep", "--sweep-file", "--jobs"})
     if (app.count(name) > 0 && app.get_option(name)->results().front().empty())
       problems.add({"command line", name, "\"\"", "a value"});
   checkFiles(options, problems);

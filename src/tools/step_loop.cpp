@@ -18,7 +18,8 @@ RunStatus runStatus(StepStatus status) {
 }
 
 bool anyFailed(const StepCompanions& companions) {
-  return std::any_of(companions.recorders->begin(), companions.recorders->end(), [](const auto& recorder) { return recorder->failed(); });
+  return companions.recorders != nullptr &&
+         std::any_of(companions.recorders->begin(), companions.recorders->end(), [](const auto& recorder) { return recorder->failed(); });
 }
 
 SolverCounters difference(const SolverCounters& after, const SolverCounters& before) {
@@ -45,7 +46,7 @@ RunSummary runSteps(Simulation& simulation, std::uint64_t steps, const StepCompa
       break;
     }
     if (companions.commands != nullptr) companions.commands->apply(simulation.time(), command);
-    companions.recent->push(simulation, command);
+    if (companions.recent != nullptr) companions.recent->push(simulation, command);
     summary.status = runStatus(simulation.step(command));
     if (summary.status != RunStatus::kDone) break;
     ++summary.steps;
@@ -53,7 +54,7 @@ RunSummary runSteps(Simulation& simulation, std::uint64_t steps, const StepCompa
       summary.status = RunStatus::kOutputFailed;
       break;
     }
-    companions.progress->update(summary.steps);
+    if (companions.progress != nullptr) companions.progress->update(summary.steps);
   }
   summary.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   summary.simulated_time = static_cast<double>(summary.steps) * simulation.stepSize();

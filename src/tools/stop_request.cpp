@@ -1,13 +1,15 @@
 #include "heerk_rotor/tools/stop_request.hpp"
 
 #include <array>
+#include <atomic>
 
 #include <signal.h>
 
 namespace heerk_rotor {
 namespace {
 
-volatile sig_atomic_t received = 0;
+std::atomic<int> received{0};  // read by every thread that steps
+static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may write it");
 constexpr std::array<int, 2> kSignals = {SIGINT, SIGTERM};
 std::array<struct sigaction, 2> previous;
 
@@ -28,6 +30,6 @@ StopRequest::~StopRequest() {
   for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &previous[i], nullptr);
 }
 
-int StopRequest::signal() noexcept { return received; }
+int StopRequest::signal() noexcept { return received.load(std::memory_order_relaxed); }
 
 }  // namespace heerk_rotor

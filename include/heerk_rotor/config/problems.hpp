@@ -11,6 +11,8 @@ struct Problem {
   std::string key;       // full dotted key
   std::string found;     // the value as written
   std::string expected;  // what would be right, with unit and range; may carry "did you mean"
+  std::string unit = {};     // of the number expected here; empty for what is no number or has none
+  bool unknown_key = false;  // nothing is called so; otherwise the value is wrong
 };
 
 /// Collects everything wrong before giving up, so that a user mends a file once.

@@ -57,6 +57,7 @@ class Section {
 
  private:
   YAML::Node lookup(const std::string& key);
+  void numberProblem(const std::string& path, const YAML::Node& value, const std::string& expected, const std::string& unit);
   const Configuration* configuration_;
   std::string path_;
   Problems* problems_;

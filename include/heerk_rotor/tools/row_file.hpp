@@ -21,6 +21,9 @@ class RowFile {
   /// Takes the row that was written from beginRow() up to `end`, its newline included.
   void endRow(char* end) noexcept { used_ = static_cast<std::size_t>(end - buffer_.data()); }
 
+  /// Brings rows of any length to the file at once, so that a reader can follow it; each ends with a newline. Only for those who use no beginRow().
+  void write(const std::string& rows) noexcept;
+
   /// Brings all rows so far to the file.
   void flush() noexcept;
   /// Writes the rest and closes; false after any error.

@@ -28,7 +28,8 @@ RunSetup setUpRun(const SimulateOptions& options);
 /// Where two configurations say different things, as problems of `given`. Numbers are compared as numbers.
 Problems differences(const Configuration& given, const Configuration& expected);
 
-/// The rows of --commands, bound to the swashplate of the system. Throws ConfigurationError, also when there is none.
-CommandSchedule openCommands(const std::string& file, const Simulation& simulation);
+/// The rows of --commands, bound to the swashplate of the system; a warning for each command that is clamped to its travel. Throws
+/// ConfigurationError, also when there is no swashplate.
+CommandSchedule openCommands(const std::string& file, const Simulation& simulation, std::vector<std::string>& warnings);
 
 }  // namespace heerk_rotor

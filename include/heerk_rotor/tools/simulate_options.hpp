@@ -21,8 +21,13 @@ struct SimulateOptions {
   std::optional<std::string> show_coupling;  // picture to write, or ""
   bool evaluation_counts = false;
   std::string save_start;               // start file to write, or ""; with trim the trimmed start
+  std::vector<std::string> sweeps;      // --sweep KEY=VALUES, in order
+  std::string sweep_file;               // list of runs, or ""
+  std::optional<std::uint64_t> jobs;    // runs of a sweep at a time, >= 1; nothing: one per processor
   bool json = false, quiet = false, list_signals = false;
   std::string help;                     // not empty: print it and do nothing else
+
+  bool isSweep() const { return !sweeps.empty() || !sweep_file.empty(); }
 };
 
 /// Throws ConfigurationError with everything that is wrong with the command line.

@@ -13,9 +13,9 @@ namespace heerk_rotor {
 struct StepCompanions {
   Vector* command = nullptr;            // w in effect: before the run, then after it
   CommandSchedule* commands = nullptr;  // or none: the command stays as it is
-  Recorders* recorders = nullptr;       // already observers of the simulation; the first failed one ends the run
-  RecentInstants* recent = nullptr;
-  ProgressBar* progress = nullptr;
+  Recorders* recorders = nullptr;       // already observers of the simulation; the first failed one ends the run; or none
+  RecentInstants* recent = nullptr;     // or none
+  ProgressBar* progress = nullptr;      // or none
 };
 
 /// Takes `steps` steps; ends earlier on a failure of solver or recorder, or when StopRequest has seen a signal.
