@@ -1,5 +1,6 @@
 #include "heerk_rotor/core/coupled_system.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
@@ -7,9 +8,6 @@
 #include "heerk_rotor/core/nearest_name.hpp"
 
 namespace heerk_rotor {
-namespace {
-constexpr Index kShort = 16;  // entries up to which a loop copies faster than the library
-}
 
 const Signal* CoupledSystem::findSignal(const std::string& name) const {
   for (const Signal& signal : signals_)
@@ -74,9 +72,7 @@ void CoupledSystem::fetch(Index number, const Vector& y, const Vector& w, Vector
   const Input& input = inputs_[number];
   const double* first = firstSource(input, y, w);
   double* target = u.data() + input.begin;
-  if (input.size > kShort) std::memcpy(target, first, static_cast<std::size_t>(input.size) * sizeof(double));
-  else
-    for (Index i = 0; i < input.size; ++i) target[i] = first[i];
+  std::copy_n(first, input.size, target);
   for (std::size_t k = 1; k < input.source_begin.size(); ++k)
     for (Index i = 0; i < input.size; ++i) target[i] += y[input.source_begin[k] + i];
 }

@@ -173,7 +173,7 @@ CoupledSystem CouplingGraph::build() && {
 
     for (std::size_t p = 0; p < entry.inputs.size(); ++p) {
       const InputPort& port = entry.inputs[p];
-      CoupledSystem::Input input{entry.name + "." + port.name, number, system.u_size_ + subsystem.u_size, port.size, {}, {}, -1, Vector::Zero(port.size)};
+      CoupledSystem::Input input{entry.name + "." + port.name, number, system.u_size_ + subsystem.u_size, port.size, {}, {}, -1, Vector::Zero(port.size), port.only_for_outputs};
       if (!port.default_value.empty()) input.default_value = Eigen::Map<const Vector>(port.default_value.data(), port.size);
       if (port.unconnected == Unconnected::kCommand && !driven(number, static_cast<Index>(p))) {
         input.command = static_cast<Index>(command.size());

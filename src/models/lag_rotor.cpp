@@ -36,8 +36,8 @@ std::vector<InputPort> LagRotor::inputs() const {
           {"hub_acceleration", 2, "rad/s^2", "angular acceleration of the hub and of the drive", Unconnected::kError, {}, {"hub", "drive"}},
           {"blade_load", 8, "N, N m", "tangential airload of each blade towards lead, then its moment about the lag hinge", Unconnected::kDefault,
            {}, {"force_1", "force_2", "force_3", "force_4", "moment_1", "moment_2", "moment_3", "moment_4"}},
-          {"thrust_load", 3, "N, N m", "thrust, rolling and pitching moment of the airloads at the hub, in hub_link", Unconnected::kDefault, {}, {"thrust", "roll", "pitch"}},
-          {"mast_torque", 1, "N m", "torque of the mast on the fuselage, about +z of hub_link", Unconnected::kDefault}};
+          {"thrust_load", 3, "N, N m", "thrust, rolling and pitching moment of the airloads at the hub, in hub_link", Unconnected::kDefault, {}, {"thrust", "roll", "pitch"}, {}, {}, true},
+          {"mast_torque", 1, "N m", "torque of the mast on the fuselage, about +z of hub_link", Unconnected::kDefault, {}, {}, {}, {}, true}};
 }
 
 std::vector<OutputPort> LagRotor::outputs() const {

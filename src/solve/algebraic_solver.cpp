@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "broyden_memory.hpp"
 #include "heerk_rotor/core/coupling_graph.hpp"
@@ -14,6 +15,20 @@ namespace {
 constexpr double kLostContraction = 0.3;   // ratio of two corrections above which the Jacobian is refreshed
 constexpr double kDifference = 1.5e-8;     // relative step of forward differences, sqrt of the machine precision
 constexpr double kRoundOff = 64 * 2.2e-16; // a residual below this share of the value cannot be lowered any more
+
+/// What most ports carry: a few numbers, written one by one just before. Copied likewise, because a vector load would have to wait until all of them
+/// have left the store buffer, and a call of the library costs more than the copy.
+inline void copyShort(const double* from, Index size, double* to) noexcept {
+  if (size > 16) {
+    std::memcpy(to, from, static_cast<std::size_t>(size) * sizeof(double));
+    return;
+  }
+#pragma GCC unroll 1
+  for (Index i = 0; i < size; ++i) {
+    to[i] = from[i];
+    asm volatile("" ::: "memory");  // keeps the loop a loop
+  }
+}
 
 /// A plan with the numbers that solving it needs.
 struct Loop {
@@ -37,11 +52,19 @@ struct AlgebraicSolver::Implementation {
   CoupledSystem& system;
   SolverOptions options;
   EvaluationPlan plan;
-  struct StageItem {  // of plan.stage, whose inputs follow each other in stage_inputs
-    Index inputs, output, loop;
+  /// plan.stage and plan.last_inputs as a list of what is to be done, with all addresses looked up. An input is taken over before anything reads it in
+  /// this solve, so nobody asks whether it changed.
+  struct Action {
+    enum class Kind { kCopy, kFetch, kEvaluate, kSolveLoop };
+    Kind kind;
+    const double* from;                      // kCopy: the one output that feeds an input
+    double* to;                              // kCopy, kEvaluate
+    Index size;
+    Index number;                            // kFetch: input; kEvaluate: port of its owner; kSolveLoop: loop
+    const CoupledSystem::Subsystem* owner;   // kEvaluate
+    std::uint64_t* evaluations;              // of the owner
   };
-  std::vector<StageItem> stage_items;
-  std::vector<Index> stage_inputs;
+  std::vector<Action> actions, observed_actions;
   std::vector<Loop> pruned, full;
   std::vector<char> use_full;            // per loop: pruning has failed once
   std::vector<char> is_unknown;          // per y entry, for the plan in use
@@ -78,12 +101,44 @@ struct AlgebraicSolver::Implementation {
     ++evaluations[output.subsystem];
   }
 
-  /// A port outside the loops: once per solve, straight into y.
-  void evaluateOnce(Index port, double t, const Vector& x) noexcept {
+  Action evaluation(Index port) {
     const CoupledSystem::Output& output = system.outputs()[port];
-    value(port, t, x, y.data() + output.begin);
-    output_stamp[port] = ++clock;
-    ++evaluations[output.subsystem];
+    const CoupledSystem::Subsystem* owner = &system.subsystems()[output.subsystem];
+    return {Action::Kind::kEvaluate, nullptr, y.data() + output.begin, output.size, output.port, owner, &evaluations[output.subsystem]};
+  }
+
+  Action take(Index number) {
+    const CoupledSystem::Input& input = system.inputs()[number];
+    if (input.source_begin.size() != 1) return {Action::Kind::kFetch, nullptr, nullptr, 0, number, nullptr, nullptr};
+    return {Action::Kind::kCopy, y.data() + input.source_begin[0], u.data() + input.begin, input.size, 0, nullptr, nullptr};
+  }
+
+  std::vector<Action> actionsOf(const std::vector<EvaluationPlan::Item>& items, const std::vector<Index>& last_inputs) {
+    std::vector<Action> list;
+    for (const EvaluationPlan::Item& item : items) {
+      for (const Index input : item.inputs) list.push_back(take(input));
+      if (item.output >= 0) list.push_back(evaluation(item.output));
+      else list.push_back({Action::Kind::kSolveLoop, nullptr, nullptr, 0, item.loop, nullptr, nullptr});
+    }
+    for (const Index input : last_inputs) list.push_back(take(input));
+    return list;
+  }
+
+  /// A port outside the loops: once per solve, straight into y.
+  void evaluateOnce(const Action& action, double t, const Vector& x) noexcept {
+    const CoupledSystem::Subsystem& s = *action.owner;
+    const In us(u.data() + s.u_begin, s.u_size);
+    const Out result(action.to, action.size);
+    ++*action.evaluations;
+    if (!in_stage) return s.model->evalOutput(action.number, t, In(x.data() + s.x_begin, s.x_size), us, result);
+    const In zs(x.data() + s.z_begin, s.z_size);
+    if (s.narrow) s.model->evalNarrowOutput(action.number, t, zs, us, result);
+    else s.model->evalOutput(action.number, t, zs, us, result);
+  }
+
+  void takeOver(const Action& action, const Vector& w) noexcept {
+    if (action.kind == Action::Kind::kFetch) return system.fetch(action.number, y, w, u);
+    copyShort(action.from, action.size, action.to);
   }
 
   /// y of a port from g, sparing the entries that are being iterated.
@@ -284,14 +339,16 @@ struct AlgebraicSolver::Implementation {
     ++counters.solves;
     stage_stamp = ++clock;
     SolveReport worst;
-    const Index* input = stage_inputs.data();
-    for (const StageItem& item : stage_items) {
-      for (const Index* const end = input + item.inputs; input != end; ++input) system.fetch(*input, y, w, u);  // nothing has read them in this solve
-      if (item.output >= 0) {
-        evaluateOnce(item.output, t, x);
+    for (const Action& action : actions) {
+      if (action.kind == Action::Kind::kEvaluate) {
+        evaluateOnce(action, t, x);
         continue;
       }
-      const SolveReport report = solveLoop(static_cast<std::size_t>(item.loop), t, x, w);
+      if (action.kind != Action::Kind::kSolveLoop) {
+        takeOver(action, w);
+        continue;
+      }
+      const SolveReport report = solveLoop(static_cast<std::size_t>(action.number), t, x, w);
       if (report.status != SolveStatus::kConverged) return report;
       worst.iterations += report.iterations;
       if (report.error > worst.error) {
@@ -299,7 +356,6 @@ struct AlgebraicSolver::Implementation {
         worst.entry = report.entry;
       }
     }
-    for (const Index input : plan.last_inputs) system.fetch(input, y, w, u);
     return worst;
   }
 };
@@ -309,10 +365,6 @@ AlgebraicSolver::AlgebraicSolver(CoupledSystem& system, const SolverOptions& opt
   Implementation& s = *impl_;
   s.plan = planEvaluation(system, t, x, w);
   system.chooseNarrowForms(neededInStages(s.plan, system));
-  for (const EvaluationPlan::Item& item : s.plan.stage) {
-    s.stage_items.push_back({static_cast<Index>(item.inputs.size()), item.output, item.loop});
-    s.stage_inputs.insert(s.stage_inputs.end(), item.inputs.begin(), item.inputs.end());
-  }
   s.y = s.g = Vector::Zero(system.outputSize());
   s.u = Vector::Zero(system.inputSize());
   s.input_stamp.assign(system.inputs().size(), 0);
@@ -337,6 +389,8 @@ AlgebraicSolver::AlgebraicSolver(CoupledSystem& system, const SolverOptions& opt
     }
     s.markUnknowns(l);
   }
+  s.actions = s.actionsOf(s.plan.stage, s.plan.last_inputs);
+  s.observed_actions = s.actionsOf(s.plan.observed, {});
   for (const CoupledSystem::Input& input : system.inputs())  // constants and commands, before anything reads them
     s.gather(&input - system.inputs().data(), w);
 
@@ -371,9 +425,9 @@ SolveReport AlgebraicSolver::solveStage(double t, const Vector& z, const Vector&
 }
 
 void AlgebraicSolver::evalObserved(double t, const Vector& x, const Vector& w) noexcept {
-  for (const EvaluationPlan::Item& item : impl_->plan.observed) {
-    for (const Index input : item.inputs) impl_->gather(input, w);
-    impl_->evaluateOnce(item.output, t, x);
+  for (const Implementation::Action& action : impl_->observed_actions) {
+    if (action.kind == Implementation::Action::Kind::kEvaluate) impl_->evaluateOnce(action, t, x);
+    else impl_->takeOver(action, w);
   }
 }
 

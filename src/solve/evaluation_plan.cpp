@@ -225,11 +225,13 @@ EvaluationPlan planEvaluation(CoupledSystem& system, double t, const Vector& x, 
     return component.size() > 1 || std::find(depends[component[0]].begin(), depends[component[0]].end(), component[0]) != depends[component[0]].end();
   };
 
+  const auto reachesState = [&](std::size_t input) { return system.subsystems()[inputs[input].subsystem].x_size > 0 && !inputs[input].only_for_outputs; };
+
   // Needed at every stage: what reaches a model with states, and every loop.
   EvaluationPlan plan;
   std::vector<char> needed(outputs.size(), 0);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    if (system.subsystems()[inputs[i].subsystem].x_size == 0) continue;
+    if (!reachesState(i)) continue;
     for (const Index source : inputs[i].sources) needed[source] = 1;
   }
   for (const auto& component : components)
@@ -267,7 +269,7 @@ EvaluationPlan planEvaluation(CoupledSystem& system, double t, const Vector& x, 
     findInnerInputs(system, plan.full.back());
   }
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    if (gathered[i] || system.subsystems()[inputs[i].subsystem].x_size == 0) continue;
+    if (gathered[i] || !reachesState(i)) continue;
     gathered[i] = 1;
     plan.last_inputs.push_back(static_cast<Index>(i));
   }

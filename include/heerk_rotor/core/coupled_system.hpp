@@ -52,6 +52,7 @@ class CoupledSystem {
     std::vector<Index> source_begin;     // their first entries of y
     Index command = -1;                  // first entry of w, when it is a command
     Vector default_value;                // (size) used when there are no sources and no command
+    bool only_for_outputs = false;
   };
 
   Index stateSize() const { return x_size_; }

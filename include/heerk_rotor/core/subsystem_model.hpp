@@ -24,6 +24,7 @@ struct InputPort {
   std::vector<double> default_value = {};       // (size), empty = zeros
   std::vector<std::string> entries = {};        // names of the entries; empty = <name>_1, <name>_2, ...
   std::vector<double> low = {}, high = {};      // (size) range of a command, beyond which the model clamps; empty = unlimited
+  bool only_for_outputs = false;                // f does not read it: what feeds it need not be known within a step
 };
 
 /// A named group of outputs. `feedthrough` names the input ports whose present value reaches this port at once.
