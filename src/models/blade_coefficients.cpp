@@ -1,5 +1,6 @@
 #include "blade_coefficients.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -9,9 +10,9 @@ namespace heerk_rotor {
 namespace {
 
 /// A matrix over the free degrees of freedom, read by nodal number.
-double entry(const BeamMatrix& A, const std::vector<int>& free_dof, int i, int j) {
+BeamReal entry(const BeamMatrix& A, const std::vector<int>& free_dof, int i, int j) {
   const int row = free_dof[static_cast<std::size_t>(i)], column = free_dof[static_cast<std::size_t>(j)];
-  return row < 0 || column < 0 ? 0.0 : static_cast<double>(A(row, column));
+  return row < 0 || column < 0 ? 0 : A(row, column);
 }
 
 double entry(const BeamVector& f, const std::vector<int>& free_dof, int i) {
@@ -42,10 +43,24 @@ BladeCoefficients::SectionShape sectionShape(const BladeMatrices& blade, const B
     shape.slope[2 * side + 1] = either(kRowSlopeV, kDofSlopeV, kRowSlopeW, kDofSlopeW, node);
     shape.twist[side] = value(kRowTwist, node, kDofTwist);
   }
-  shape.element = left;
+  shape.node = left;
   shape.radius = r;
   shape.built_in_twist = static_cast<double>(bladeSection(properties, r).twist);
   return shape;
+}
+
+/// The factor by which all values are multiples of others, or 0. Both are rounded to 80 bits from sums of the same integrals.
+double multiple(const std::vector<BeamReal>& values, const std::vector<BeamReal>& of) {
+  std::size_t largest = 0;
+  BeamReal scale = 0;
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    if (std::abs(of[i]) > std::abs(of[largest])) largest = i;
+    scale = std::max(scale, std::abs(values[i]));
+  }
+  const BeamReal factor = values[largest] / of[largest];
+  for (std::size_t i = 0; i < of.size(); ++i)
+    if (std::abs(values[i] - factor * of[i]) > 1e-17L * scale) return 0.0;
+  return static_cast<double>(factor);
 }
 
 }  // namespace
@@ -68,14 +83,17 @@ BladeCoefficients::BladeCoefficients(const FeRotorParameters& p, int lanes_)
   const auto ofBlade = [this](int blade) { return static_cast<std::size_t>(copies == 1 ? 0 : blade); };
 
   nodes = static_cast<int>(matrices[0].nodes.size());
-  dofs = kNodeDofs * nodes;
   modes = static_cast<int>(blade_modes[0].size());
-  dof_blocks = (dofs + kBlock - 1) / kBlock;
-  mode_blocks = (modes + kBlock - 1) / kBlock;
+  int next = 0;
+  for (int kind = 0; kind < kDofKinds; ++kind) {
+    kind_begin[kind] = next + kKindSize[kind];
+    next = kind_begin[kind] + rows(kind) + kKindSize[kind];
+  }
+  nodal_size = next + 1;
   const std::vector<int>& free_dof = matrices[0].free_dof;
-  bool offset = false;
-  for (const BladeMatrices& blade : matrices) offset = offset || blade.E_v.cwiseAbs().maxCoeff() > 0 || blade.E_w.cwiseAbs().maxCoeff() > 0;
-  forms = offset ? kForms : kFormOffsetV;
+  first_node = std::all_of(free_dof.begin(), free_dof.begin() + kNodeDofs, [](int row) { return row < 0; }) ? 1 : 0;
+  // Number of a nodal displacement in BladeMatrices.
+  const auto dofOf = [](int kind, int node, int which) { return kNodeDofs * node + 2 * kind + which; };
 
   // Modes.
   for (int i = 0; i < modes; ++i) {
@@ -84,57 +102,144 @@ BladeCoefficients::BladeCoefficients(const FeRotorParameters& p, int lanes_)
       damping.push_back(blade_modes[ofBlade(k)].damping[i]);
       state_names.push_back(blade_modes[ofBlade(k)].name[static_cast<std::size_t>(i)] + "_" + std::to_string(k + 1));
     }
-    for (int k = 0; k < copies; ++k) {
-      const double w = blade_modes[of(k)].omega[i];
-      stiffness.push_back(w * w);
-      mode_damping.push_back(blade_modes[of(k)].damping[i]);
-    }
   }
-  const auto shape = [&](int copy, int dof, int mode) {
-    const int row = dof < dofs ? free_dof[static_cast<std::size_t>(dof)] : -1;
-    return row < 0 || mode >= modes ? 0.0 : static_cast<double>(blade_modes[of(copy)].V(row, mode));
+
+  // Rows of V that move in the same modes side by side, and modes that move the same rows.
+  struct Row {
+    int position, matrix_row;
+    std::vector<bool> moves;  // [mode]
   };
-  for (int block = 0; block < dof_blocks; ++block)
-    for (int i = 0; i < modes; ++i)
-      for (int r = 0; r < kBlock; ++r)
-        for (int k = 0; k < copies; ++k) to_nodes.push_back(shape(k, block * kBlock + r, i));
-  for (int block = 0; block < mode_blocks; ++block)
-    for (int dof = 0; dof < dofs; ++dof)
-      for (int r = 0; r < kBlock; ++r)
-        for (int k = 0; k < copies; ++k) to_modes.push_back(shape(k, dof, block * kBlock + r));
+  std::vector<Row> shape_rows;
+  for (int kind = 0; kind < kDofKinds; ++kind)
+    for (int i = 0; i < rows(kind); ++i) {
+      Row row{kind_begin[kind] + i, free_dof[static_cast<std::size_t>(dofOf(kind, i / kKindSize[kind], i % kKindSize[kind]))], std::vector<bool>(static_cast<std::size_t>(modes))};
+      if (row.matrix_row < 0) continue;
+      for (const BladeModes& blade : blade_modes)
+        for (int mode = 0; mode < modes; ++mode) if (blade.V(row.matrix_row, mode) != 0) row.moves[static_cast<std::size_t>(mode)] = true;
+      shape_rows.push_back(std::move(row));
+    }
+  std::stable_sort(shape_rows.begin(), shape_rows.end(), [](const Row& a, const Row& b) { return a.moves > b.moves; });
+  const auto moved = [&](int mode) {
+    std::vector<bool> list;
+    for (const Row& row : shape_rows) list.push_back(row.moves[static_cast<std::size_t>(mode)]);
+    return list;
+  };
+  for (int mode = 0; mode < modes; ++mode) mode_order.push_back(mode);
+  std::stable_sort(mode_order.begin(), mode_order.end(), [&](int a, int b) { return moved(a) > moved(b); });
+  for (int mode : mode_order)
+    for (int k = 0; k < copies; ++k) {
+      const double w = blade_modes[of(k)].omega[mode];
+      stiffness.push_back(w * w);
+      mode_damping.push_back(blade_modes[of(k)].damping[mode]);
+    }
+  for (std::size_t begin = 0; begin < shape_rows.size(); begin += kBlock) {
+    const std::size_t count = std::min(shape_rows.size() - begin, static_cast<std::size_t>(kBlock));
+    const auto moves = [&](int entry) {
+      return std::any_of(shape_rows.begin() + static_cast<std::ptrdiff_t>(begin), shape_rows.begin() + static_cast<std::ptrdiff_t>(begin + count),
+                         [&](const Row& row) { return row.moves[static_cast<std::size_t>(mode_order[static_cast<std::size_t>(entry)])]; });
+    };
+    ModeBlock block{};
+    for (std::size_t r = 0; r < kBlock; ++r) block.position[r] = r < count ? shape_rows[begin + r].position : nodal_size - 1;
+    int end = modes;
+    while (end > 0 && !moves(end - 1)) --end;
+    while (block.first < end && !moves(block.first)) ++block.first;
+    block.count = end - block.first;
+    for (int entry = block.first; entry < end; ++entry)
+      for (std::size_t r = 0; r < kBlock; ++r)
+        for (int k = 0; k < copies; ++k)
+          block.V.push_back(r < count ? static_cast<double>(blade_modes[of(k)].V(shape_rows[begin + r].matrix_row, mode_order[static_cast<std::size_t>(entry)])) : 0.0);
+    mode_blocks.push_back(std::move(block));
+  }
 
   // Forms.
   const auto form = [&](const BladeMatrices& b, int which) -> const BeamMatrix& {
     const BeamMatrix* list[kForms] = {&b.K1.constant, &b.K1.cos2, &b.K1.sin2, &b.P, &b.T0, &b.G, &b.E_v, &b.E_w};
     return *list[which];
   };
-  for (int dof = 0; dof < dofs; ++dof)
-    for (int column = 0; column < kBand; ++column)
-      for (int which = 0; which < forms; ++which)
-        for (int k = 0; k < copies; ++k) {
-          const int other = kNodeDofs * (dof / kNodeDofs - 1) + column;
-          band.push_back(other < 0 || other >= dofs ? 0.0 : entry(form(matrices[of(k)], which), free_dof, dof, other));
+  for (int row = 0; row < kDofKinds; ++row) {
+    for (int column = 0; column < kDofKinds; ++column) {
+      std::vector<std::vector<BeamReal>> distinct;  // [part with these rows and columns]
+      const std::size_t first = parts.size();
+      for (int which = 0; which < kForms; ++which) {
+        std::vector<BeamReal> values;
+        BeamReal largest = 0, scale = 0;
+        for (const BladeMatrices& b : matrices) scale = std::max(scale, form(b, which).cwiseAbs().maxCoeff());
+        for (int node = 0; node < nodes; ++node)
+          for (int neighbour = node - 1; neighbour <= node + 1; ++neighbour)
+            for (int c = 0; c < kKindSize[column]; ++c)
+              for (int r = 0; r < kKindSize[row]; ++r)
+                for (int k = 0; k < copies; ++k) {
+                  const bool exists = neighbour >= 0 && neighbour < nodes;
+                  values.push_back(exists ? entry(form(matrices[of(k)], which), free_dof, dofOf(row, node, r), dofOf(column, neighbour, c)) : 0);
+                  largest = std::max(largest, std::abs(values.back()));
+                }
+        if (largest <= 1e-17L * scale) continue;  // nothing but round-off
+        double factor = 0.0;
+        std::size_t part = 0;
+        for (; part < distinct.size() && factor == 0.0; ++part) factor = multiple(values, distinct[part]);
+        if (factor != 0.0) {
+          parts[first + part - 1].factor[which] = factor;
+          continue;
         }
-  for (int dof = 0; dof < dofs; ++dof)
-    for (int which = 0; which < kLines; ++which)
-      for (int k = 0; k < copies; ++k) {
-        const BladeMatrices& b = matrices[of(k)];
-        const BeamVector* list[kLines] = {&b.steady.constant, &b.steady.cos2, &b.steady.sin2, &b.steady_x, &b.inertia_u, &b.inertia_v, &b.inertia_w,
-                                          &b.inertia_rv, &b.inertia_rw, &b.inertia_twist};
-        lines.push_back(entry(*list[which], free_dof, dof));
+        FormPart added{};
+        added.row = row;
+        added.column = column;
+        added.factor[which] = 1.0;
+        added.values.assign(values.begin(), values.end());
+        parts.push_back(std::move(added));
+        distinct.push_back(std::move(values));
       }
+    }
+  }
+  for (int which = 0; which < kLines; ++which)
+    for (int kind = 0; kind < kDofKinds; ++kind) {
+      LinePart part{kind, which, -1, {}};
+      for (int i = 0; i < rows(kind); ++i)
+        for (int k = 0; k < copies; ++k) {
+          const BladeMatrices& b = matrices[of(k)];
+          const BeamVector* list[kLines] = {&b.steady.constant, &b.steady.cos2, &b.steady.sin2, &b.steady_x, &b.inertia_rv, &b.inertia_rw,
+                                            &b.inertia_u, &b.inertia_v, &b.inertia_w, &b.inertia_twist};
+          part.values.push_back(entry(*list[which], free_dof, dofOf(kind, i / kKindSize[kind], i % kKindSize[kind])));
+        }
+      if (std::any_of(part.values.begin(), part.values.end(), [](double value) { return value != 0.0; })) lines.push_back(std::move(part));
+    }
+
+  // What is needed of each.
+  offset = false;
+  for (int kind = 0; kind < kDofKinds; ++kind) {
+    int& next_slot = slots[kind] = 0;
+    for (LinePart& line : lines) if (line.kind == kind && line.line < kLoadLines) line.slot = next_slot++;
+    for (FormPart& part : parts) {
+      if (part.row != kind) continue;
+      const auto in = [&part](BladeForm form) { return part.factor[form] != 0.0; };
+      offset = offset || in(kFormOffsetV) || in(kFormOffsetW);
+      part.rates = in(kFormShortening) || in(kFormCoriolis) || in(kFormOffsetV) || in(kFormOffsetW);
+      part.slot = in(kFormMean) || in(kFormCosine) || in(kFormSine) || in(kFormSpin) || in(kFormOffsetV) ? next_slot++ : -1;
+      part.rate_slot = in(kFormCoriolis) ? next_slot++ : -1;
+    }
+  }
 
   // Loads of unit hub accelerations on the modes.
-  for (int row = 0; row < 6; ++row)
-    for (int i = 0; i < modes; ++i)
+  for (int i : mode_order)
+    for (int row = 0; row < kHubRows; ++row)
       for (int k = 0; k < copies; ++k) {
         const BladeMatrices& b = matrices[of(k)];
-        const BeamVector* list[6] = {&b.inertia_u, &b.inertia_v, &b.inertia_w, &b.inertia_twist, &b.inertia_rw, &b.inertia_rv};
+        const BeamVector* list[kHubRows] = {&b.inertia_u, &b.inertia_v, &b.inertia_w, &b.inertia_twist, &b.inertia_rw, &b.inertia_rv};
         const double value = static_cast<double>(blade_modes[of(k)].V.col(i).dot(*list[row]));
-        hub_rows.push_back(row == 4 ? -value : value);
+        hub_rows.push_back(row == kRowTurnY ? -value : value);
+      }
+  for (int row = 0; row < kHubRows; ++row)
+    for (int other = row; other < kHubRows; ++other)
+      for (int k = 0; k < copies; ++k) {
+        BeamReal sum = 0;
+        for (int i = 0; i < modes; ++i) {
+          const auto at = [&](int which) { return hub_rows[static_cast<std::size_t>((i * kHubRows + which) * copies + k)]; };
+          sum += static_cast<BeamReal>(at(row)) * at(other);
+        }
+        hub_row_products.push_back(static_cast<double>(sum));
       }
   for (int slope : {static_cast<int>(kDofSlopeV), static_cast<int>(kDofSlopeW)})
-    for (int k = 0; k < copies; ++k) hinge_damping.push_back(entry(matrices[of(k)].C_hinge, free_dof, slope, slope));
+    for (int k = 0; k < copies; ++k) hinge_damping.push_back(static_cast<double>(entry(matrices[of(k)].C_hinge, free_dof, slope, slope)));
 
   // The undeformed blade.
   std::vector<std::array<double, 10>> undeformed;

@@ -9,36 +9,83 @@ namespace heerk_rotor {
 /// Quadratic forms of one blade in nodal displacements, see BladeMatrices.
 enum BladeForm { kFormMean, kFormCosine, kFormSine, kFormSpin, kFormShortening, kFormCoriolis, kFormOffsetV, kFormOffsetW, kForms };
 
-/// Linear forms of one blade in nodal displacements.
-enum BladeLine { kLineMean, kLineCosine, kLineSine, kLineSpin, kLineU, kLineV, kLineW, kLineRV, kLineRW, kLineTwist, kLines };
+/// Linear forms of one blade in nodal displacements. The first kLoadLines are loads of the blade's rotation.
+enum BladeLine { kLineMean, kLineCosine, kLineSine, kLineSpin, kLineRV, kLineRW, kLoadLines, kLineU = kLoadLines, kLineV, kLineW, kLineTwist, kLines };
+
+/// Kinds of nodal displacements: v and its slope, w and its slope, twist.
+enum DofKind { kLagDofs, kFlapDofs, kTwistDofs, kDofKinds };
+constexpr int kKindSize[kDofKinds] = {2, 2, 1};  // per node
+
+/// Accelerations of the hub, as the blades see them: of the origin and angular ones, in B. Each loads every mode ("rows").
+enum HubRow { kRowX, kRowY, kRowZ, kRowTurnX, kRowTurnY, kRowTurnZ, kHubRows };
+constexpr int kHubPairs = kHubRows * (kHubRows + 1) / 2;
+/// Index of the pair (i, j) of hub rows, i <= j, in a symmetric matrix.
+constexpr int hubPair(int i, int j) { return i * kHubRows - i * (i - 1) / 2 + j - i; }
 
 /// The numbers with which blades are computed in lanes: rounded once from the 80-bit matrices of the beam room and laid out in the order
-/// of use. Each coefficient stands once where all blades are equal, or once per lane ("copies").
-/// Nodal arrays hold all 5 degrees of freedom of every node, zero where held, and are padded to whole blocks of kBlock.
+/// of use. Each coefficient stands once where all blades are equal, or once per lane ("copies"). What is zero for every blade is left out.
+///
+/// Nodal arrays run by kind of displacement, then node, then value and slope: [lag | flap | twist][node][kKindSize], with a node of zeros
+/// on both sides of each kind, so that every node has two neighbours. Held degrees of freedom stay zero. The last entry belongs to none.
 struct BladeCoefficients {
-  static constexpr int kBlock = 4;
-  static constexpr int kBand = 15;  // a node's row reaches its own and both neighbours' degrees of freedom
+  static constexpr int kBlock = 8;
 
   BladeCoefficients(const FeRotorParameters& parameters, int lanes);
 
   int blades, lanes, copies;
-  int nodes, dofs, modes, sections;  // dofs = 5 nodes
-  int dof_blocks, mode_blocks;
-  int forms;                         // kForms, or kFormOffsetV where all mass centres lie on the elastic axis
+  int nodes, modes, sections;
+  int first_node;                    // 1 where the root is clamped, 0 where a hinge frees it
+  bool offset;                       // mass centres beside the elastic axis: E_v and E_w are not zero
+  int kind_begin[kDofKinds];         // of the first node in nodal arrays
+  int nodal_size;
+
+  int rows(int kind) const { return nodes * kKindSize[kind]; }
 
   std::vector<double> omega, damping;             // [mode][blade] of the S that the state uses
-  std::vector<double> stiffness, mode_damping;    // [mode][copy] omega^2, c
-  std::vector<double> to_nodes;                   // [dof block][mode][kBlock][copy]: V
-  std::vector<double> to_modes;                   // [mode block][dof][kBlock][copy]: V'
-  std::vector<double> band;                       // [dof][kBand][form][copy]
-  std::vector<double> lines;                      // [dof][line][copy]
-  std::vector<double> hub_rows;                   // [6][mode][copy]: u, v, w, twist, -rw, rv: modal loads of unit hub accelerations
+  /// Modal arrays run in an order of their own, in which modes that move the same kinds of displacements stand side by side.
+  std::vector<int> mode_order;                    // [modal entry] mode
+  std::vector<double> stiffness, mode_damping;    // [modal entry][copy] omega^2, c
+
+  /// Up to kBlock rows of V, and the modal entries in which one of them moves.
+  struct ModeBlock {
+    int position[kBlock];            // in nodal arrays
+    int first, count;                // modal entries
+    std::vector<double> V;           // [count][kBlock][copy]
+  };
+  std::vector<ModeBlock> mode_blocks;
+
+  /// The nodal loads of one kind are a sum over slots: linear forms first, then products of the displacements, then of their rates.
+  int slots[kDofKinds];
+
+  /// The rows of one kind and the columns of another kind of one form, or of several forms that are multiples of each other there.
+  /// A node's rows reach its own and both neighbours' degrees of freedom.
+  struct FormPart {
+    int row, column;                 // DofKind
+    double factor[kForms];           // form = factor x values
+    int slot;                        // of the product with d, or -1 where no load needs it
+    int rate_slot;                   // of the product with d', or -1
+    bool rates;                      // the product with d' is needed, if only for sums
+    std::vector<double> values;      // [node][3 neighbours][column of the node][row of the node][copy]
+  };
+  std::vector<FormPart> parts;
+
+  /// The entries of one kind of a linear form.
+  struct LinePart {
+    int kind;                        // DofKind
+    int line;                        // BladeLine
+    int slot;                        // or -1 where it is no load of the rotation
+    std::vector<double> values;      // [row][copy]
+  };
+  std::vector<LinePart> lines;
+
+  std::vector<double> hub_rows;                   // [modal entry][kHubRows][copy]: modal loads of unit hub accelerations, undeformed
+  std::vector<double> hub_row_products;           // [kHubPairs][copy]: their sums of products over the modes
   std::vector<double> hinge_damping;              // [2][copy]: of the root slopes in v and in w
   std::vector<double> rigid;                      // [10][copy]: mass, first moment x y z, inertia xx yy zz xy xz yz
   double nominal_mean, nominal_spin, nominal_lead_v;  // contained in S: Omega^2 cos^2 p, Omega^2 sin^2 p and Omega^2 e0
 
   struct SectionShape {
-    int element;                 // left node
+    int node;                    // left end of the element
     double radius;               // [m]
     double v[4], slope[4];       // cubic Hermite: left value, left slope, right value, right slope
     double twist[2];             // linear

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "blade_coefficients.hpp"
+#include "heerk_rotor/beam/beam_types.hpp"
 #include "lane_vector.hpp"
 
 namespace heerk_rotor {
@@ -51,13 +52,18 @@ struct SectionMotion {
 /// J, S and h are the very forms that the beam's equations of motion (BladeMatrices) are made of, so that linear and angular
 /// momentum and energy balance exactly, whatever the hub does. Frame of all: B. State: modal q, then q', [mode][blade].
 ///
+/// F and N are linear in the accelerations A = (a, w') of the hub: with the modal loads S_q and h_q' of unit accelerations ("hub rows"),
+/// q'' = Q' - rows A, and what q'' carries of F and N is rows'q'' = rows'Q' - (rows'rows) A. So the 6 x 6 matrices rows'rows serve every
+/// A at one state, and q'' itself is needed only once the hub's accelerations are found.
+///
 /// Evaluation in three levels, each repeated only when its arguments differ bitwise from last time (a pure function with a memory of
-/// its last value):  state -> deformation and forms;  + rates, pitch, airloads -> modal loads;  + accelerations -> q'', F, N.
+/// its last value):  state -> deformation and forms;  + rates, pitch, airloads -> modal loads;  + accelerations -> F, N, and q'' on demand.
 template <int L>
 class BladeDynamics {
  public:
   using Vec = LaneVector<L>;
   using Vec3 = Lanes3<L>;
+  using Pair = LaneVector<2 * L>;  // two quantities of all blades; mostly a displacement and its rate
 
   explicit BladeDynamics(const FeRotorParameters& parameters);
 
@@ -66,8 +72,14 @@ class BladeDynamics {
   /// Level 1. x: state.
   void deform(const double* x) noexcept;
   /// Displacements, and their rates, at section j (sections: tip).
-  SectionMotion<L> displacement(int j) const noexcept { return evaluate(c_.shapes[static_cast<std::size_t>(j)], d_); }
-  SectionMotion<L> displacementRate(int j) const noexcept { return evaluate(c_.shapes[static_cast<std::size_t>(j)], d_rate_); }
+  SectionMotion<L> displacement(int j) const noexcept {
+    const Pair* const at = section_.data() + kShapeRows * j;
+    return {firstOf<L>(at[kRowV]), firstOf<L>(at[kRowW]), firstOf<L>(at[kRowTwist]), firstOf<L>(at[kRowSlopeV]), firstOf<L>(at[kRowSlopeW])};
+  }
+  SectionMotion<L> displacementRate(int j) const noexcept {
+    const Pair* const at = section_.data() + kShapeRows * j;
+    return {secondOf<L>(at[kRowV]), secondOf<L>(at[kRowW]), secondOf<L>(at[kRowTwist]), secondOf<L>(at[kRowSlopeV]), secondOf<L>(at[kRowSlopeW])};
+  }
 
   /// Level 2. loads: [section][fx fy fz in R, pitching moment][blade]. version: differs whenever the axes do, and stands for them when
   /// arguments are compared.
@@ -76,7 +88,7 @@ class BladeDynamics {
   /// Level 3. Root lead, precone and pitch rate are accounted for here.
   void accelerate(const BladeAxes<L>& axes, const HubAcceleration<L>& hub) noexcept;
   /// q'' - S x: what remains beside the modal oscillators, [mode].
-  const Vec* remainder() const noexcept { return remainder_.data(); }
+  const Vec* remainder() noexcept;
   /// Second derivative of the displacements at section j.
   SectionMotion<L> displacementAcceleration(int j) noexcept;
   /// Force and moment of the blades on the hub about its centre, in R.
@@ -94,22 +106,31 @@ class BladeDynamics {
   double rootLead() const noexcept { return root_lead_; }
 
  private:
-  template <bool equal> Vec at(const std::vector<double>& values, std::size_t index) const noexcept;
-  template <bool equal> void deformImpl() noexcept;
+  template <bool equal> static Vec at(const std::vector<double>& values, std::size_t index) noexcept;
+  Vec read(const std::vector<double>& values, std::size_t index) const noexcept { return c_.copies == 1 ? at<true>(values, index) : at<false>(values, index); }
+  template <bool equal, bool offset> void deformImpl() noexcept;
+  template <bool equal> void applyForms() noexcept;
+  template <bool equal> void applyLines() noexcept;
+  template <bool equal, int rows, int columns, bool rates> void applyPart(const BladeCoefficients::FormPart& part) noexcept;
+  template <bool equal, bool offset> void findRowProducts() noexcept;
+  template <bool equal, bool offset> Vec hubRow(int row, std::size_t mode) const noexcept;
   template <bool equal> void loadImpl(const BladeAxes<L>& axes, const double* loads) noexcept;
-  template <bool equal> void accelerateImpl(const BladeAxes<L>& axes, const HubAcceleration<L>& hub) noexcept;
-  template <bool equal> void toNodes(const Vec* q, const Vec* q_rate, Vec* d, Vec* d_rate) const noexcept;
-  template <bool equal, int count> void toModes(const Vec* const* nodal, Vec* const* modal) const noexcept;
-  /// S, S', J, h of the deformed blade about the origin of B.
+  template <int rows> void sumOverSlots(int kind, const Vec* factor) noexcept;
+  template <bool equal, bool offset> void loadOnHub() noexcept;
+  template <bool equal, bool offset> void remainderImpl() noexcept;
+  void accelerateImpl(const BladeAxes<L>& axes, const HubAcceleration<L>& hub) noexcept;
+  /// S, S', J, J', h of the deformed blade about the origin of B.
+  struct Inertia {
+    Vec xx, yy, zz, xy, xz, yz;
+    Vec3 operator*(const Vec3& w) const noexcept { return {xx * w.x + xy * w.y + xz * w.z, xy * w.x + yy * w.y + yz * w.z, xz * w.x + yz * w.y + zz * w.z}; }
+  };
   struct MassMoments {
     Vec3 first, first_rate, deformation_momentum;
-    Vec xx, yy, zz, xy, xz, yz;
-    Vec3 inertiaTimes(const Vec3& w) const noexcept { return {xx * w.x + xy * w.y + xz * w.z, xy * w.x + yy * w.y + yz * w.z, xz * w.x + yz * w.y + zz * w.z}; }
+    Inertia second, second_rate;
   };
-  MassMoments massMoments() const noexcept;
-  Vec3 inertiaRateTimes(const Vec3& w) const noexcept;
-  SectionMotion<L> evaluate(const BladeCoefficients::SectionShape& shape, const std::vector<Vec>& d) const noexcept;
-  Vec rigid(int i) const noexcept;
+  void findMassMoments() noexcept;
+  Vec rigid(int i) const noexcept { return read(c_.rigid, static_cast<std::size_t>(i)); }
+  std::size_t root(NodeDof dof) const noexcept { return static_cast<std::size_t>(c_.kind_begin[dof / 2] + dof % 2); }
 
   BladeCoefficients c_;
   double root_lead_;
@@ -117,14 +138,17 @@ class BladeDynamics {
   // Level 1
   std::vector<double> state_key_;
   bool state_valid_ = false;
-  std::vector<Vec> q_, q_rate_;                 // (modes)
-  std::vector<Vec> d_, d_rate_;                 // nodal, padded by one node on both sides
-  std::vector<Vec> product_[kForms];            // form times d, nodal
-  std::vector<Vec> coriolis_rate_;              // G d'
-  std::vector<Vec> row_u_, row_twist_, row_v_, row_w_;  // S_q and h_q' by modes where they depend on q
+  std::vector<Pair> q_;                         // (modal) q, q'
+  std::vector<Pair> d_;                         // (nodal) d, d'
+  std::vector<Pair> section_;                   // [section][ShapeRow]
+  std::vector<Vec> slot_[kDofKinds];            // [node][slot][row of the node] what makes up the nodal loads
   Vec line_[kLines], line_rate_[kLines];        // linear forms of d and d'
   Vec form_[kForms], form_rate_[kForms];        // d.A d and d'.A d
   Vec rate_shortening_, rate_offset_v_, rate_offset_w_, spin_momentum_;  // d'.T0 d', d'.E d', -d.G d'
+  MassMoments moments_;
+  std::vector<Pair> nodal_x_, nodal_y_;         // (nodal) -T0 d, G d;  -E_v d, -E_w d
+  std::vector<Pair> row_constant_x_, row_constant_y_, row_x_, row_y_;  // (modal) hub rows x, turn x;  y, z
+  Vec row_products_[kHubPairs];                 // rows'rows
   // Level 2
   std::vector<double> load_key_;
   bool load_valid_ = false;
@@ -132,12 +156,13 @@ class BladeDynamics {
   std::vector<Vec> nodal_load_;
   std::vector<Vec> modal_load_;                 // without the hub's accelerations
   Vec3 air_force_, air_moment_;                 // about the origin of B, in B
-  Vec3 omega_;                                  // of B
+  Vec3 hub_force_, hub_moment_;                 // on the blade less the airloads, without the hub's accelerations
+  Vec turning_y_, turning_z_;                   // acceleration of B by the turning of its pitch axis
   // Level 3
   std::vector<double> acceleration_key_;
-  bool acceleration_valid_ = false;
-  std::vector<Vec> remainder_, q_acceleration_, d_acceleration_, unused_;
-  bool d_acceleration_valid_ = false;
+  bool acceleration_valid_ = false, remainder_valid_ = false, d_acceleration_valid_ = false;
+  Vec acceleration_[kHubRows];                  // of the hub, in B
+  std::vector<Vec> remainder_, q_acceleration_, d_acceleration_;
   Vec3 root_force_, root_moment_;
 };
 

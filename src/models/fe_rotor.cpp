@@ -141,7 +141,8 @@ class FeRotor : public SubsystemModel {
     accelerate(u);
     const Index n = static_cast<Index>(dynamics_.coefficients().modes) * blades_;
     remainder.head(n).setZero();
-    for (int i = 0; i < dynamics_.coefficients().modes; ++i) storeLanes<L>(dynamics_.remainder()[i], blades_, remainder.data() + n + i * blades_);
+    const Vec* const modal = dynamics_.remainder();
+    for (int i = 0; i < dynamics_.coefficients().modes; ++i) storeLanes<L>(modal[i], blades_, remainder.data() + n + i * blades_);
   }
 
   void evalDerivatives(double t, const In& x, const In& u, Out xdot) noexcept override {
@@ -264,12 +265,7 @@ class FeRotor : public SubsystemModel {
     n = cross(span, t);
   }
 
-  static Vec inverseNorm(const Vec3& v) noexcept {
-    const Vec square = dot(v, v);
-    Vec result;
-    for (int k = 0; k < L; ++k) result[k] = 1.0 / std::sqrt(square[k]);
-    return result;
-  }
+  static Vec inverseNorm(const Vec3& v) noexcept { return 1.0 / squareRoot<L>(dot(v, v)); }
 
   void sectionAcceleration(const In& u, Out y) noexcept {
     accelerate(u);
