@@ -9,7 +9,7 @@
 namespace heerk_rotor::work_precision {
 namespace {
 
-constexpr double kPatience = 6.0;  // times the limit after which a run is given up
+constexpr double kPatience = 6.0;  // times the end of a curve after which a run is given up
 constexpr double kSame = 0.01;     // relative change of an error that counts as none
 constexpr int kPlateau = 2;        // points without change that end a curve
 
@@ -38,7 +38,13 @@ void printRow(const Problem& problem, const Family& family, double parameter, co
 void measure(const Problem& problem, const Family& family, ErrorMeasure& measure_of, const ComparisonOptions& options) {
   double last = std::numeric_limits<double>::infinity();
   int unchanged = 0;
+  const double end = problem.patience * options.limit;
+  bool skip = false;  // long ones come at every other parameter only
   for (const double parameter : family.parameters) {
+    if (skip) {
+      skip = false;
+      continue;
+    }
     std::unique_ptr<Integration> integration;
     try {
       integration = family.make(parameter);
@@ -47,7 +53,7 @@ void measure(const Problem& problem, const Family& family, ErrorMeasure& measure
       return;
     }
     const double begin = cpuSeconds();
-    cpu_deadline = begin + kPatience * options.limit;
+    cpu_deadline = begin + kPatience * end;
     const bool finished = integration->run();
     cpu_deadline = std::numeric_limits<double>::infinity();
     const double first = cpuSeconds() - begin;
@@ -55,7 +61,8 @@ void measure(const Problem& problem, const Family& family, ErrorMeasure& measure
     const bool useful = finished && error.measured < 1.0;
     if (!useful) printRow(problem, family, parameter, error, 0.0, nullptr, finished ? "error above 1" : "failed");
     else printRow(problem, family, parameter, error, first > options.limit ? first : medianTime(*integration, first, options), integration.get(), "ok");
-    if ((useful && std::max(error.measured, error.all) < options.finest_error) || first > options.limit) return;
+    if ((useful && std::max(error.measured, error.all) < options.finest_error) || first > end) return;
+    skip = first > options.limit;
     const double sum = error.measured + error.all;
     unchanged = useful && std::abs(sum - last) < kSame * last ? unchanged + 1 : 0;
     if (family.truncated && unchanged >= kPlateau) return;

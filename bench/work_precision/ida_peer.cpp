@@ -82,7 +82,7 @@ class Ida final : public Integration {
 
 std::vector<Family> idaPeers(const Problem& problem, const Vector& scale, bool quick) {
   const auto family = [&](int max_order, const std::string& setting) {
-    return Family{"IDA", setting, tolerances(quick), [problem, scale, max_order](double tolerance) { return std::make_unique<Ida>(problem, scale, max_order, tolerance); }};
+    return Family{"IDA", setting, tolerances(quick), [=](double tolerance) { return std::make_unique<Ida>(problem, scale, max_order, tolerance); }};
   };
   std::vector<Family> families{family(5, "dense Jacobian")};
   if (!quick) families.push_back(family(2, "dense Jacobian, order up to 2"));

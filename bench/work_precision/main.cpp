@@ -17,7 +17,8 @@ int main(int argc, char** argv) {
   app.add_option("PROBLEM", problems, "problems, all when none is named (--list shows them)");
   app.add_option("--methods", options.methods, "only these methods, separated by commas")->delimiter(',');
   app.add_option("--rounds", options.rounds, "measurements per point, of which the median counts")->capture_default_str();
-  app.add_option("--limit", options.limit, "a curve ends with the first integration that takes longer [s]")->capture_default_str();
+  app.add_option("--limit", options.limit, "integrations that take longer are measured once and end a curve; 8 times that where the problem takes anyone long [s]")
+      ->capture_default_str();
   app.add_option("--finest-error", options.finest_error, "a curve ends with the first error below")->capture_default_str();
   app.add_flag("--quick", options.quick, "fewer points per curve and fewer settings");
   app.add_flag("--list", list, "list the problems");

@@ -29,6 +29,7 @@ struct Problem {
   Overrides newmark = {};                   // overrides under which Newmark's method is at its best
   std::vector<int> mode_counts = {};        // of truncated blades, largest first; empty: nothing to truncate
   double fine_step = 0.0;                   // of the second reference [s]
+  double patience = 1.0;                    // times the limit of time per integration, where even the best methods need long
 
   double spacing() const { return duration / instants; }
   Vector startOf(const CoupledSystem& system) const;
