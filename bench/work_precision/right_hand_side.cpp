@@ -1,0 +1,30 @@
+#include "right_hand_side.hpp"
+
+#include <cmath>
+
+#include "integration.hpp"
+
+namespace heerk_rotor::work_precision {
+
+RightHandSide::RightHandSide(const Problem& problem, const Problem::Overrides& overrides)
+    : system_(problem.build(overrides)), start_(problem.startOf(system_)), command_(problem.commandOf(system_)), x_(start_) {
+  SolverOptions options;
+  options.tolerance = problem.newton_tolerance;
+  solver_ = std::make_unique<AlgebraicSolver>(system_, options, 0.0, start_, command_);
+  cache_ = solver_->cache();
+}
+
+void RightHandSide::restart() noexcept {
+  solver_->restoreCache(cache_);
+  evaluations = 0;
+}
+
+bool RightHandSide::evaluate(double t, const double* x, bool complete, double* f) noexcept {
+  if ((++evaluations & 0xff) == 0 && cpuSeconds() > cpu_deadline) return false;
+  x_ = In(x, x_.size());
+  if (!std::isfinite(x_.sum()) || solver_->solve(t, x_, command_).status != SolveStatus::kConverged) return false;
+  system_.evalRemainder(t, x_, solver_->u(), complete, f);
+  return true;
+}
+
+}  // namespace heerk_rotor::work_precision

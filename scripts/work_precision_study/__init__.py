@@ -1,0 +1,1 @@
+"""Error against CPU time: reading, comparing, drawing, telling."""
