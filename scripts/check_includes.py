@@ -11,8 +11,8 @@ import sys
 ROOMS = {
     "core": set(),
     "beam": set(),
-    "aero": set(),
-    "shaft": set(),
+    "aero": {"core"},
+    "shaft": {"core"},
     "config": {"core"},  # nearest_name: the hints of both are spelled the same way
     "solve": {"core"},
     "integrate": {"core", "solve"},

@@ -78,7 +78,7 @@ class FeRotor : public SubsystemModel {
              Unconnected::kDefault, {0.0, 0.0, kGravity, 0.0, 0.0, 0.0},
              {"specific_force_x", "specific_force_y", "specific_force_z", "mount_acceleration_x", "mount_acceleration_y", "mount_acceleration_z"}},
             {"pitch_acceleration", n, "rad/s^2", "second time derivative of the pitch", Unconnected::kDefault},
-            {"hub_gravity", 3, "m/s^2", "gravity in hub_link", Unconnected::kDefault, {0.0, 0.0, -kGravity}, {"gravity_x", "gravity_y", "gravity_z"}}};
+            {"hub_gravity", 3, "m/s^2", "gravity in hub_link", Unconnected::kDefault, {0.0, 0.0, -kGravity}, {"gravity_x", "gravity_y", "gravity_z"}, {}, {}, true}};
   }
 
   std::vector<OutputPort> outputs() const override {

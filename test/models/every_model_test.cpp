@@ -189,17 +189,15 @@ TEST_P(EveryModel, remainderIsDerivativesMinusStiffPart) {
 TEST_P(EveryModel, derivativesReadNoInputThatIsOnlyForOutputs) {
   Vector x, u;
   for (std::size_t q = 0; q < tested.inputs.size(); ++q) {
-    bool read = false;
+    if (!tested.inputs[q].only_for_outputs) continue;
     for (int k = 0; k < 10; ++k) {
       tested.randomPoint(random, x, u);
-      Vector f = Vector::Zero(x.size()), moved = f;
+      Vector f = Vector::Zero(x.size()), without = f;
       tested.model->evalDerivatives(0.3, in(x), in(u), view(f));
-      u.segment(tested.input_begin[q], tested.inputs[q].size).array() += 0.01;
-      tested.model->evalDerivatives(0.3, in(x), in(u), view(moved));
-      read |= !(f == moved);
+      u.segment(tested.input_begin[q], tested.inputs[q].size).setConstant(std::nan(""));
+      tested.model->evalDerivatives(0.3, in(x), in(u), view(without));
+      EXPECT_EQ(f, without) << tested.inputs[q].name;
     }
-    if (tested.inputs[q].only_for_outputs) EXPECT_FALSE(read) << tested.inputs[q].name;
-    else if (x.size() > 0) EXPECT_TRUE(read) << tested.inputs[q].name << " could be declared only_for_outputs";
   }
 }
 
