@@ -1,0 +1,65 @@
+#pragma once
+#include <vector>
+
+#include "broyden_memory.hpp"
+#include "heerk_rotor/solve/algebraic_solver.hpp"
+#include "heerk_rotor/solve/evaluation_plan.hpp"
+#include "heerk_rotor/solve/sparse_lu.hpp"
+#include "port_values.hpp"
+
+namespace heerk_rotor {
+
+/// Solves one loop of output ports by simplified Newton on its pruned unknowns; on all of its entries from the moment when pruning has failed.
+class LoopSolver {
+ public:
+  LoopSolver(PortValues& values, const SolverOptions& options, SolverCounters& counters, const LoopPlan& pruned, const LoopPlan& full);
+
+  SolveReport solve(double t, const Vector& x, const Vector& w) noexcept;
+
+  /// Takes and factorises the Jacobian at the present y. False: singular.
+  bool refresh(double t, const Vector& x, const Vector& w) noexcept { return current().plan.unknowns.empty() || refresh(current(), t, x, w); }
+
+  LoopInfo info() const;
+  const std::vector<Index>& outputs() const { return full_.plan.outputs; }
+
+  /// What the next solve depends on besides y: appended to a cache, and read back from one.
+  void appendTo(std::vector<double>& cache) const;
+  void restore(std::vector<double>::const_iterator& value);
+
+ private:
+  /// A plan with the numbers that solving it needs.
+  struct Loop {
+    explicit Loop(const LoopPlan& p) : plan(p), lu(p.gradient), matrix(p.gradient.rows.size(), 0.0), nominal(p.unknowns.size(), 1.0), inverse_nominal(nominal),
+          step(p.unknowns.size(), 0.0), reference(p.unknowns.size(), 0.0), kept(p.unknowns.size(), 0.0), broyden(p.unknowns.size()) {}
+    LoopPlan plan;
+    SparseLu lu;
+    std::vector<double> matrix;            // I - dg/dy in units of the nominal magnitudes, in the order of plan.gradient.rows
+    std::vector<double> nominal, inverse_nominal;  // magnitude of each unknown; makes pivots of different quantities comparable
+    bool factorized = false;
+    std::vector<double> step, reference, kept;
+    BroydenMemory broyden;                 // of the present solve
+    Vector jacobian;                       // scratch for a model's own Jacobian
+  };
+
+  Loop& current() noexcept { return use_full_ ? full_ : pruned_; }
+  const Loop& current() const noexcept { return use_full_ ? full_ : pruned_; }
+  void markUnknowns() noexcept;
+  void adopt(Index port) noexcept;
+  void residual(Loop& loop, double t, const Vector& x, const Vector& w) noexcept;
+  bool residualIsRoundOff(const Loop& loop) const noexcept;
+  bool refresh(Loop& loop, double t, const Vector& x, const Vector& w) noexcept;
+  void applyModelJacobians(Loop& loop, double t, const Vector& x) noexcept;
+  double correction(Loop& loop, Index& worst) noexcept;
+  SolveReport iterate(Loop& loop, double t, const Vector& x, const Vector& w) noexcept;
+  bool consistent(const Loop& loop, double t, const Vector& x, const Vector& w, Index& worst) noexcept;
+  void evaluateInOrder(const LoopPlan& plan, const std::vector<Index>& ports, double t, const Vector& x, const Vector& w) noexcept;
+
+  PortValues& values_;
+  const SolverOptions options_;
+  SolverCounters& counters_;
+  Loop pruned_, full_;
+  bool use_full_;                    // from the start, or because pruning has failed once
+  std::vector<char> is_unknown_;     // per y entry, for the plan in use
+};
+
+}  // namespace heerk_rotor
