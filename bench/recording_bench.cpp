@@ -1,14 +1,13 @@
 // What it costs to hand an instant on or to record it, per step: on the step thread (reading and rings), and in recorders, which in real time have
 // a thread of their own. Files are in a folder of their own below the temporary one, deleted afterwards, and begun anew before they fill the disk.
 #include <atomic>
-#include <cstdlib>
-#include <filesystem>
 
 #include "heerk_rotor/realtime/instant_feed.hpp"
 #include "heerk_rotor/tools/csv_recorder.hpp"
 #include "heerk_rotor/tools/open_recorders.hpp"
 #include "heerk_rotor/tools/signal_selection.hpp"
 #include "observed_instant.hpp"
+#include "tools/test_files.hpp"
 
 #ifdef HEERK_WITH_LCM
 #include <lcm/lcm-cpp.hpp>
@@ -22,23 +21,6 @@ namespace {
 constexpr std::uint64_t kMostInstants = 50000;  // per file: about 50 MB
 
 bool isShaft(const std::string& config) { return config == "dual_disc.yaml"; }
-
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "heerk_bench_XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a folder like " + name);
-    path_ = name;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// All that the step thread does for readers: an instant read, checked, put into the newest value and into `rings` rings that somebody empties.
 template <class Kind>
@@ -69,7 +51,7 @@ void handOn(benchmark::State& state, const std::string& config) { isShaft(config
 template <class Open>
 void record(benchmark::State& state, const std::string& config, const std::string& name, const Open& open) {
   const ObservedInstant instant(config);
-  const Folder folder;
+  const TestFolder folder;
   std::unique_ptr<Recorder> recorder;
   try {
     recorder = open(folder.file(name), instant);

@@ -23,6 +23,7 @@ elseif(TARGET heerk_rotor_core)
     endif()
     add_executable(bench_${name} ${source})
     target_link_libraries(bench_${name} PRIVATE ${library} benchmark::benchmark benchmark::benchmark_main)
+    target_include_directories(bench_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/test)  # a folder for files, removed afterwards
     target_compile_definitions(bench_${name} PRIVATE HEERK_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
     add_dependencies(benchmarks bench_${name})
   endforeach()

@@ -28,14 +28,8 @@ class Arkode final : public Integration {
     const auto orNone = [](const std::string& name, const char* none) { return name.empty() ? none : name.c_str(); };
     ARKStepSetTableName(memory_, orNone(tables.implicit_name, "ARKODE_DIRK_NONE"), orNone(tables.explicit_name, "ARKODE_ERK_NONE"));
     if (split != Split::kExplicit) {
-      if (dense) {
-        dense_ = std::make_unique<DenseSolver>(x_.get(), sun_.context);
-        ARKStepSetLinearSolver(memory_, dense_->solver.get(), dense_->matrix.get());
-      } else {
-        content_ = {&stiff_, memory_, ARKStepGetCurrentGamma};
-        structured_ = makeStructuredSolver(content_, sun_.context);
-        ARKStepSetLinearSolver(memory_, structured_.get(), nullptr);
-      }
+      if (dense) newton_.setDense(memory_, x_.get(), sun_.context, ARKStepSetLinearSolver);
+      else newton_.setStructured(memory_, stiff_, ARKStepGetCurrentGamma, sun_.context, ARKStepSetLinearSolver);
       ARKStepSetDeduceImplicitRhs(memory_, SUNTRUE);
     }
     if (split == Split::kAdditive) ARKStepSetLinear(memory_, 0);
@@ -80,9 +74,7 @@ class Arkode final : public Integration {
   SundialsContext sun_;
   NVector x_, absolute_;
   void* memory_;
-  std::unique_ptr<DenseSolver> dense_;
-  StructuredSolver content_{};
-  SunSolver structured_;
+  NewtonSolver newton_;
 };
 
 }  // namespace

@@ -27,15 +27,8 @@ class Cvode final : public Integration {
     if (orders == Orders::kUpToTwo) CVodeSetMaxOrd(memory_, 2);
     if (orders == Orders::kDetectLimit) CVodeSetStabLimDet(memory_, SUNTRUE);
     switch (corrector) {
-      case Corrector::kDense:
-        dense_ = std::make_unique<DenseSolver>(x_.get(), sun_.context);
-        CVodeSetLinearSolver(memory_, dense_->solver.get(), dense_->matrix.get());
-        break;
-      case Corrector::kStructured:
-        content_ = {&stiff_, memory_, CVodeGetCurrentGamma};
-        structured_ = makeStructuredSolver(content_, sun_.context);
-        CVodeSetLinearSolver(memory_, structured_.get(), nullptr);
-        break;
+      case Corrector::kDense: newton_.setDense(memory_, x_.get(), sun_.context, CVodeSetLinearSolver); break;
+      case Corrector::kStructured: newton_.setStructured(memory_, stiff_, CVodeGetCurrentGamma, sun_.context, CVodeSetLinearSolver); break;
       case Corrector::kFixedPoint:
         fixed_point_ = SUNNonlinSol_FixedPoint(x_.get(), 0, sun_.context);
         CVodeSetNonlinearSolver(memory_, fixed_point_);
@@ -72,9 +65,7 @@ class Cvode final : public Integration {
   SundialsContext sun_;
   NVector x_, absolute_;
   void* memory_;
-  std::unique_ptr<DenseSolver> dense_;
-  StructuredSolver content_{};
-  SunSolver structured_;
+  NewtonSolver newton_;
   SUNNonlinearSolver fixed_point_ = nullptr;
 };
 

@@ -32,8 +32,7 @@ class Ida final : public Integration {
     IDASetMaxOrd(memory_, max_order);
     IDASetId(memory_, kind_.get());
     IDASetSuppressAlg(memory_, SUNTRUE);
-    dense_ = std::make_unique<DenseSolver>(x_.get(), sun_.context);
-    IDASetLinearSolver(memory_, dense_->solver.get(), dense_->matrix.get());
+    newton_.setDense(memory_, x_.get(), sun_.context, IDASetLinearSolver);
     states_.resize(n_, problem.instants);
   }
 
@@ -75,7 +74,7 @@ class Ida final : public Integration {
   NVector x_, xdot_, kind_, absolute_;
   Vector gap_;
   void* memory_ = nullptr;
-  std::unique_ptr<DenseSolver> dense_;
+  NewtonSolver newton_;
 };
 
 }  // namespace

@@ -50,6 +50,26 @@ struct DenseSolver {
   SunSolver solver;
 };
 
+/// The linear solver in an integrator's Newton iteration; `set` is the library's function that takes it.
+class NewtonSolver {
+ public:
+  using Set = int (*)(void*, SUNLinearSolver, SUNMatrix);
+  void setDense(void* integrator, N_Vector like, SUNContext context, Set set) {
+    dense_ = std::make_unique<DenseSolver>(like, context);
+    set(integrator, dense_->solver.get(), dense_->matrix.get());
+  }
+  void setStructured(void* integrator, StiffSolver& stiff, int (*gamma)(void*, realtype*), SUNContext context, Set set) {
+    content_ = {&stiff, integrator, gamma};
+    structured_ = makeStructuredSolver(content_, context);
+    set(integrator, structured_.get(), nullptr);
+  }
+
+ private:
+  std::unique_ptr<DenseSolver> dense_;
+  StructuredSolver content_{};
+  SunSolver structured_;
+};
+
 /// Messages of failing runs are counted as failures, not printed.
 inline void silent(int, const char*, const char*, char*, void*) {}
 

@@ -76,26 +76,26 @@ def stacked(axis, labels, groups, values, unit):
     axis.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=5 if len(groups) > 4 else 4, fontsize=8, frameon=False)
 
 
-def parts(results, folder):
-    found = [(label, results.get("fe_rotor_step", name)) for label, name in (("10 sections", "parts/bo105"), ("20 sections", "parts/bo105_20_sections"))]
+def stacked_figure(results, folder, bars, groups, height, unit, caption, name, alt):
+    """One bar for each (label, program, benchmark) that has a result, made of the counters (key, label) of `groups`."""
+    found = [(label, results.get(program, benchmark)) for label, program, benchmark in bars]
     found = [(label, m) for label, m in found if m]
     if not found:
         return ""
-    figure, axis = plt.subplots(figsize=(9, 0.7 * len(found) + 1.4), layout="constrained")
-    stacked(axis, [label for label, _ in found], [label for _, label in PARTS], [[m.counters[key] for _, m in found] for key, _ in PARTS], "µs")
-    axis.set_xlabel("one step of the elastic rotor [µs]")
-    return save(figure, folder, "parts.png", "Parts of a step of the elastic rotor")
+    figure, axis = plt.subplots(figsize=(9, height * len(found) + 1.4), layout="constrained")
+    stacked(axis, [label for label, _ in found], [label for _, label in groups], [[m.counters[key] for _, m in found] for key, _ in groups], unit)
+    axis.set_xlabel(caption)
+    return save(figure, folder, name, alt)
+
+
+def parts(results, folder):
+    bars = [("10 sections", "fe_rotor_step", "parts/bo105"), ("20 sections", "fe_rotor_step", "parts/bo105_20_sections")]
+    return stacked_figure(results, folder, bars, PARTS, 0.7, "µs", "one step of the elastic rotor [µs]", "parts.png", "Parts of a step of the elastic rotor")
 
 
 def startup(results, folder):
-    found = [(config, results.get("startup", f"toFirstStep/{config}")) for config in STARTUP]
-    found = [(config, m) for config, m in found if m]
-    if not found:
-        return ""
-    figure, axis = plt.subplots(figsize=(9, 0.5 * len(found) + 1.4), layout="constrained")
-    stacked(axis, [config for config, _ in found], [label for _, label in STARTUP_PARTS], [[m.counters[key] for _, m in found] for key, _ in STARTUP_PARTS], "ms")
-    axis.set_xlabel("from the YAML file to the first step [ms]")
-    return save(figure, folder, "startup.png", "Start-up")
+    bars = [(config, "startup", f"toFirstStep/{config}") for config in STARTUP]
+    return stacked_figure(results, folder, bars, STARTUP_PARTS, 0.5, "ms", "from the YAML file to the first step [ms]", "startup.png", "Start-up")
 
 
 def scaling(results, folder, checks):

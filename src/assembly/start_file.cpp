@@ -1,13 +1,13 @@
 #include "heerk_rotor/assembly/start_file.hpp"
 
 #include <cstdint>
-#include <cstdio>
 #include <locale>
 #include <map>
 #include <sstream>
 
 #include "heerk_rotor/config/section.hpp"
 #include "heerk_rotor/config/yaml_value.hpp"
+#include "heerk_rotor/core/hash_text.hpp"
 
 namespace heerk_rotor {
 namespace {
@@ -152,9 +152,7 @@ std::string startText(const CoupledSystem& system, const Vector& x, const Vector
 std::string configurationHash(const Configuration& configuration) {
   std::uint64_t hash = 14695981039346656037ull;  // FNV-1a
   for (const char c : configuration.resolvedText()) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-  char digits[17];
-  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
-  return digits;
+  return hashText(hash);
 }
 
 }  // namespace heerk_rotor

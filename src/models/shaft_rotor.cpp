@@ -36,37 +36,6 @@ struct AddStiff {
   void operator()(const Other&) const noexcept {}
 };
 
-/// Four outputs of all states, as the journal needs them in every stage: eight chains of sums hide the latency of the additions.
-class FourRows {
- public:
-  FourRows() = default;
-  explicit FourRows(const Rows& rows) : blocks_((rows.cols() + kLanes - 1) / kLanes), last_(rows.cols() - kLanes) {
-    table_.setZero(4 * kLanes * blocks_);
-    for (Index j = 0; j < rows.cols(); ++j) {
-      const Index block = j / kLanes, lane = j - begin(block);
-      for (Index i = 0; i < 4; ++i) table_[kLanes * (4 * block + i) + lane] = rows(i, j);
-    }
-  }
-  void multiply(const double* x, double* y) const noexcept {
-    Lanes sum[4] = {Lanes::Zero(), Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
-    const double* a = table_.data();
-    for (Index block = 0; block < blocks_; ++block) {
-      const Lanes x_block = Eigen::Map<const Lanes>(x + begin(block));
-      for (int i = 0; i < 4; ++i, a += kLanes) sum[i] += Eigen::Map<const Lanes>(a) * x_block;
-    }
-    for (int i = 0; i < 4; ++i) y[i] = sum[i].sum();
-  }
-
- private:
-  static constexpr int kLanes = 8;
-  using Lanes = Eigen::Array<double, kLanes, 1>;
-  /// The last block overlaps the one before, with zeros there, instead of reading past the end. (The smallest shaft has 16 states.)
-  Index begin(Index block) const noexcept { return std::min(block * kLanes, last_); }
-
-  Index blocks_ = 0, last_ = 0;
-  Vector table_;  // [block][row][lane]
-};
-
 class ShaftRotor : public SubsystemModel {
  public:
   ShaftRotor(const ShaftRotorParameters& p, const ShaftMatrices& shaft, ShaftForm form);
@@ -91,7 +60,6 @@ class ShaftRotor : public SubsystemModel {
     Kind kind;
     OutputPort declaration;
     Rows rows;           // (size x N), kRows only
-    FourRows four_rows;  // the same, where there are four
     Index z_begin;       // of a journal's motion: its place in z
   };
   /// (omega^2 - i omega') e^{i psi}, of which the unbalance columns take real and imaginary part; `less` times the phasor taken off.
@@ -151,12 +119,10 @@ ShaftRotor::ShaftRotor(const ShaftRotorParameters& p, const ShaftMatrices& shaft
 void ShaftRotor::addRows(OutputPort declaration, const Matrix& of_motion, Index z_begin) {
   declaration.size = of_motion.rows();
   if (declaration.size == 0) return;
-  Port port{Kind::kRows, std::move(declaration), of_motion * form_.observe, {}, z_begin};
-  if (port.rows.rows() == 4) port.four_rows = FourRows(port.rows);
-  ports_.push_back(std::move(port));
+  ports_.push_back({Kind::kRows, std::move(declaration), of_motion * form_.observe, z_begin});
 }
 
-void ShaftRotor::addScalar(Kind kind, OutputPort declaration) { ports_.push_back({kind, std::move(declaration), {}, {}, -1}); }
+void ShaftRotor::addScalar(Kind kind, OutputPort declaration) { ports_.push_back({kind, std::move(declaration), {}, -1}); }
 
 void ShaftRotor::addPorts(const ShaftMatrices& shaft) {
   const Index n = shaft.size();
@@ -243,10 +209,7 @@ ShaftRotor::Rotating ShaftRotor::rotating(double t, const In& x, const In& u, do
 void ShaftRotor::evalOutput(Index number, double t, const In& x, const In& u, Out y) noexcept {
   const Port& port = ports_[static_cast<std::size_t>(number)];
   switch (port.kind) {
-    case Kind::kRows:
-      if (port.rows.rows() == 4) port.four_rows.multiply(x.data(), y.data());
-      else y.noalias() = port.rows * x;
-      break;
+    case Kind::kRows: y.noalias() = port.rows * x; break;
     case Kind::kAzimuth: y[0] = p_.rotor_speed * t + u[kDriveAngle]; break;
     case Kind::kSpeed: y[0] = p_.rotor_speed + u[kDriveRate]; break;
     case Kind::kEnergy:

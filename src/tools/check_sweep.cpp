@@ -14,18 +14,11 @@ const char* const kNothingMeant = "=\"?\"";
 
 bool startsWith(const std::string& text, const std::string& begin) { return text.compare(0, begin.size(), begin) == 0; }
 
-SimulateOptions optionsOf(const SimulateOptions& options, const Sweep& sweep, std::uint64_t run) {
-  SimulateOptions own = options;
-  const std::vector<std::string> overrides = sweep.overrides(run);
-  own.overrides.insert(own.overrides.end(), overrides.begin(), overrides.end());
-  return own;
-}
-
 /// Unit of a key; a problem when nothing is called so.
 std::string probe(const SimulateOptions& options, const Sweep& sweep, std::size_t number, const std::string& where, Problems& problems) {
   const std::uint64_t run = sweep.firstRunWith(number);
   const std::string key = sweep.keys()[number];
-  SimulateOptions own = optionsOf(options, sweep, run);
+  SimulateOptions own = sweep.optionsOf(run, options);
   own.overrides.push_back(key + kNothingMeant);
   try {
     setUpRun(own);
@@ -56,7 +49,7 @@ SweepColumns checkSweep(const SimulateOptions& options, const Sweep& sweep) {
   for (std::uint64_t run = 0; run < sweep.size(); ++run) {
     std::unique_ptr<RunSetup> setup;
     try {
-      setup = std::make_unique<RunSetup>(setUpRun(optionsOf(options, sweep, run)));
+      setup = std::make_unique<RunSetup>(setUpRun(sweep.optionsOf(run, options)));
     } catch (const std::exception&) {
       if (!first) first = std::current_exception();
       continue;

@@ -3,23 +3,10 @@
 #include <cstdio>
 #include <sstream>
 
+#include "heerk_rotor/core/hash_text.hpp"
 #include "heerk_rotor/tools/number_text.hpp"
 
 namespace heerk_rotor {
-namespace {
-
-std::string exact(double value) {
-  char buffer[kLongestNumber];
-  return std::string(buffer, writeNumber(buffer, value));
-}
-
-std::string hex(std::uint64_t value) {
-  char buffer[17];
-  std::snprintf(buffer, sizeof buffer, "%016llx", static_cast<unsigned long long>(value));
-  return buffer;
-}
-
-}  // namespace
 
 std::string name(RunStatus status) {
   switch (status) {
@@ -35,13 +22,13 @@ std::string name(RunStatus status) {
 std::string json(const RunSummary& summary) {
   std::ostringstream out;
   const bool timed = summary.steps > 0 && summary.wall_time > 0.0;
-  out << "{\"steps\": " << summary.steps << ", \"simulated_time\": " << exact(summary.simulated_time)
-      << ", \"wall_time\": " << exact(summary.wall_time)
-      << ", \"real_time_factor\": " << (timed ? exact(summary.realTimeFactor()) : "null") << ", \"solves\": " << summary.spent.solves
+  out << "{\"steps\": " << summary.steps << ", \"simulated_time\": " << numberText(summary.simulated_time)
+      << ", \"wall_time\": " << numberText(summary.wall_time)
+      << ", \"real_time_factor\": " << (timed ? numberText(summary.realTimeFactor()) : "null") << ", \"solves\": " << summary.spent.solves
       << ", \"newton_iterations\": " << summary.spent.newton_iterations
       << ", \"residual_evaluations\": " << summary.spent.residual_evaluations
       << ", \"factorizations\": " << summary.spent.factorizations << ", \"status\": \"" << name(summary.status)
-      << "\", \"state_hash\": \"" << hex(summary.state_hash) << "\"}\n";
+      << "\", \"state_hash\": \"" << hashText(summary.state_hash) << "\"}\n";
   return out.str();
 }
 
@@ -56,7 +43,7 @@ std::string text(const RunSummary& summary) {
                 summary.realTimeFactor(), summary.steps > 0 ? 1e6 * summary.wall_time / static_cast<double>(summary.steps) : 0.0,
                 static_cast<unsigned long long>(summary.spent.solves), static_cast<double>(summary.spent.newton_iterations) / solves,
                 static_cast<double>(summary.spent.residual_evaluations) / solves,
-                static_cast<unsigned long long>(summary.spent.factorizations), hex(summary.state_hash).c_str());
+                static_cast<unsigned long long>(summary.spent.factorizations), hashText(summary.state_hash).c_str());
   return buffer;
 }
 

@@ -43,7 +43,7 @@ bool readCount(const std::string& word, std::uint64_t& count) {
 }
 
 /// 15 digits: a tenth of 1 reads 0.1, not 0.10000000000000001.
-std::string numberText(double value) {
+std::string rangeText(double value) {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, "%.15g", value);
   return buffer;
@@ -71,7 +71,7 @@ std::vector<std::string> expandRange(const std::string& item, const std::string&
   std::vector<std::string> values = {parts[0]};
   for (std::uint64_t i = 1; i + 1 < count; ++i) {
     const double fraction = static_cast<double>(i) / static_cast<double>(count - 1);
-    values.push_back(numberText(logarithmic ? from * std::pow(to / from, fraction) : from + (to - from) * fraction));
+    values.push_back(rangeText(logarithmic ? from * std::pow(to / from, fraction) : from + (to - from) * fraction));
   }
   values.push_back(parts[1]);
   return values;
@@ -152,6 +152,12 @@ std::vector<std::string> Sweep::overrides(std::uint64_t run) const {
   for (std::size_t i = 0; i < all_keys.size(); ++i)
     if (!all_values[i].empty()) result.push_back(all_keys[i] + "=" + all_values[i]);
   return result;
+}
+
+SimulateOptions Sweep::optionsOf(std::uint64_t run, SimulateOptions common) const {
+  const std::vector<std::string> own = overrides(run);
+  common.overrides.insert(common.overrides.end(), own.begin(), own.end());
+  return common;
 }
 
 std::uint64_t Sweep::firstRunWith(std::size_t key) const {

@@ -78,10 +78,8 @@ SweepOutcome runOne(const SimulateOptions& options, const Sweep& sweep, std::uin
   std::uint64_t parts = 0;
   SweepOutcome outcome;
   try {
-    SimulateOptions own = options;
+    SimulateOptions own = sweep.optionsOf(run, options);
     own.quiet = true;
-    const std::vector<std::string> overrides = sweep.overrides(run);
-    own.overrides.insert(own.overrides.end(), overrides.begin(), overrides.end());
     RunSetup setup = setUpRun(own);
     outcome = runSetUp(own, setup, columns, progress, parts);
   } catch (const ConfigurationError& error) {

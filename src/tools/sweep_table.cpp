@@ -1,25 +1,13 @@
 #include "heerk_rotor/tools/sweep_table.hpp"
 
-#include <cstdio>
 #include <limits>
 
+#include "heerk_rotor/core/hash_text.hpp"
 #include "heerk_rotor/tools/csv_cell.hpp"
 #include "heerk_rotor/tools/number_text.hpp"
 
 namespace heerk_rotor {
 namespace {
-
-template <class Number>
-std::string text(Number value) {
-  char buffer[kLongestNumber];
-  return std::string(buffer, writeNumber(buffer, value));
-}
-
-std::string hex(std::uint64_t value) {
-  char buffer[17];
-  std::snprintf(buffer, sizeof buffer, "%016llx", static_cast<unsigned long long>(value));
-  return buffer;
-}
 
 /// Several lines as one: a row of the table is one line for every reader.
 std::string oneLine(const std::string& lines) {
@@ -41,14 +29,14 @@ SweepTable::SweepTable(const Sweep& sweep, const std::vector<std::string>& units
 }
 
 std::string SweepTable::row(std::uint64_t run, const SweepOutcome& outcome) const {
-  std::string line = text(run);
+  std::string line = numberText(run);
   for (const std::string& value : sweep_.values(run)) line += "," + csvCell(value);
-  line += "," + outcome.status + "," + text(outcome.steps) + "," + text(outcome.simulated_time) + "," + hex(outcome.state_hash);
+  line += "," + outcome.status + "," + numberText(outcome.steps) + "," + numberText(outcome.simulated_time) + "," + hashText(outcome.state_hash);
   for (std::size_t i = 0; i < signals_; ++i) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const bool known = outcome.status == "done" && i < outcome.present.size() && outcome.present[i];
     const SignalSummary s = known ? outcome.summaries[i] : SignalSummary{nan, nan, nan, nan, nan};
-    for (const double value : {s.final, s.mean, s.half_peak_to_peak, s.min, s.max}) line += "," + (known ? text(value) : std::string("nan"));
+    for (const double value : {s.final, s.mean, s.half_peak_to_peak, s.min, s.max}) line += "," + (known ? numberText(value) : std::string("nan"));
   }
   return line + "," + csvCell(oneLine(outcome.message)) + "\n";
 }

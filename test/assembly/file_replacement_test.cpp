@@ -1,9 +1,7 @@
 #include "heerk_rotor/assembly/file_replacement.hpp"
 
-#include <sys/resource.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -12,6 +10,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "full_disk.hpp"
 
 namespace heerk_rotor {
 namespace {
@@ -41,24 +41,6 @@ class FileReplacementTest : public testing::Test {
   }
   const std::string directory_ = testing::TempDir() + "file_replacement_test_" + std::to_string(::getpid());
   const std::string file_ = directory_ + "/target";
-};
-
-/// While it lives, a file of this process cannot grow beyond a limit, as on a full disk.
-class FullDisk {
- public:
-  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FullDisk() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  rlimit before_{};
-  void (*handler_)(int);
 };
 
 TEST_F(FileReplacementTest, writesNewFilesAndReplacesOldOnes) {

@@ -153,6 +153,24 @@ TEST(ShaftRotor, newtonsLawHoldsForTheNodes) {
   }
 }
 
+TEST(ShaftRotor, stagesReadTheMotionOfTheJournalsAlone) {
+  ShaftRotorParameters p = everything();
+  for (const bool modal : {true, false}) {
+    p.modal = modal;
+    const auto shaft = makeShaftRotorModel(p);
+    ASSERT_NE(shaft->narrowForm(), nullptr);
+    EXPECT_EQ(shaft->narrowForm()->C.rows(), 8) << "two journals";
+    EXPECT_EQ(shaft->narrowForm()->B.cols(), modal ? 4 : 6) << "two forces each; the unbalance where S does not hold it";
+  }
+  p.journals.clear();
+  EXPECT_EQ(makeShaftRotorModel(p)->narrowForm(), nullptr);
+
+  const auto shipped_one = buildSimulation(shipped("dual_disc.yaml", {}));
+  EXPECT_TRUE(shipped_one->system().hasNarrowForms());
+  EXPECT_EQ(shipped_one->system().stageSize(), 4);
+  EXPECT_EQ(shipped_one->system().stageRemainderSize(), 2);
+}
+
 TEST(ShaftRotor, startsAtRest) {
   for (const char* coordinates : {"modal", "physical"}) {
     auto simulation = buildSimulation(shipped("dual_disc.yaml", {std::string("subsystems.shaft.coordinates=") + coordinates}));

@@ -163,6 +163,42 @@ TEST(AlgebraicSolver, evaluatesEachPortOnceWhereALoopIsSolvedAlready) {
   EXPECT_LE(evaluated, ports);  // the check after convergence and the ports behind the loop find all of them up to date
 }
 
+/// Keeps a state, and reads one more input for an output alone.
+class Reader : public SubsystemModel {
+ public:
+  explicit Reader(bool only_for_outputs) : only_for_outputs_(only_for_outputs) {}
+  std::vector<State> states() const override { return {{"x", "-", ""}}; }
+  std::vector<InputPort> inputs() const override {
+    InputPort port{"in", 1, "-", ""};
+    port.only_for_outputs = only_for_outputs_;
+    return {port};
+  }
+  std::vector<OutputPort> outputs() const override { return {{"out", 1, "-", "", {"in"}}}; }
+  void evalOutput(Index, double, const In&, const In& u, Out y) noexcept override { y[0] = 2.0 * u[0]; }
+  void evalDerivatives(double, const In& x, const In&, Out xdot) noexcept override { xdot[0] = -x[0]; }
+
+ private:
+  bool only_for_outputs_;
+};
+
+TEST(AlgebraicSolver, whatOnlyOutputsReadIsEvaluatedWhenTheyAre) {
+  for (const bool only_for_outputs : {false, true}) {
+    CouplingGraph graph;
+    graph.add("source", FunctionModel().output("out", 1, {}, [](double t, const In&, const In&, Out y) { y[0] = t; }).make());
+    graph.add("reader", std::make_unique<Reader>(only_for_outputs));
+    graph.connect("source.out", "reader.in");
+    CoupledSystem system = std::move(graph).build();
+    const Vector x = system.initialState();
+    AlgebraicSolver solver(system, tight(), 0.0, x, kNone);
+    const auto before = solver.outputEvaluations();
+    ASSERT_EQ(solver.solve(3.0, x, kNone).status, SolveStatus::kConverged);
+    EXPECT_EQ(solver.outputEvaluations()[0] - before[0], only_for_outputs ? 0u : 1u);
+    solver.evalObserved(3.0, x, kNone);
+    EXPECT_EQ(solver.outputEvaluations()[0] - before[0], 1u);
+    EXPECT_EQ(solver.y()[1], 6.0);
+  }
+}
+
 TEST(AlgebraicSolver, reportsALoopWithoutSolution) {
   // y = y^2 + 1 + x has no real root for x >= 0.
   CouplingGraph graph;

@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "test_files.hpp"
@@ -40,6 +41,26 @@ class Program {
     while (::waitpid(process_, &status, 0) < 0)
       if (errno != EINTR) throw std::runtime_error("waitpid failed");
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+  /// Processor time it has spent so far [s].
+  double cpuTime() const {
+    clockid_t clock;
+    timespec spent{};
+    if (::clock_getcpuclockid(process_, &clock) != 0 || ::clock_gettime(clock, &spent) != 0) throw std::runtime_error("no processor time of the program");
+    return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec);
+  }
+
+  /// Waits until `reached()`, however slow the machine is: while the program runs and has not spent ten seconds of processor time on its way there.
+  template <class Condition>
+  bool computesUntil(const Condition& reached) const {
+    const double limit = cpuTime() + 10.0;
+    while (!reached()) {
+      siginfo_t ended{};
+      if (::waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 || ended.si_pid != 0 || cpuTime() > limit) return false;
+      ::usleep(1000);
+    }
+    return true;
   }
 
   std::string out() const { return readText(folder_.file("out")); }

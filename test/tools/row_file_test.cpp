@@ -1,12 +1,11 @@
 #include "heerk_rotor/tools/row_file.hpp"
 
 #include <algorithm>
-#include <csignal>
 #include <cstring>
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
+#include "full_disk.hpp"
 #include "test_files.hpp"
 
 namespace heerk_rotor {
@@ -22,24 +21,6 @@ std::size_t writeRows(RowFile& file, std::size_t count) {
   }
   return count;
 }
-
-/// Limits the size of files this process may write, as a full disk does (the write comes back short, then fails).
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : previous_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &previous_);
-    const rlimit limit = {bytes, previous_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &previous_);
-    std::signal(SIGXFSZ, previous_handler_);
-  }
-
- private:
-  rlimit previous_;
-  void (*previous_handler_)(int);
-};
 
 TEST(RowFile, writesAllRowsThroughManyBuffers) {
   const TestFolder folder;
@@ -58,7 +39,7 @@ TEST(RowFile, keepsOnlyCompleteRowsWhenTheDiskIsFull) {
   constexpr std::size_t kLimit = 1500001;  // ends within a row of the second buffer
   std::size_t taken = 0;
   {
-    const FileSizeLimit limit(kLimit);
+    const FullDisk limit(kLimit);
     taken = writeRows(file, 1000000);
     EXPECT_FALSE(file.close());
   }
@@ -73,7 +54,7 @@ TEST(RowFile, anErrorAtTheEndIsReportedByClose) {
   const TestFolder folder;
   RowFile file(folder.file("rows"), 16);
   writeRows(file, 10);  // all still in the buffer
-  const FileSizeLimit limit(20);
+  const FullDisk limit(20);
   EXPECT_FALSE(file.close());
   EXPECT_EQ(readText(folder.file("rows")), "1000000\n1000001\n");
 }

@@ -2,10 +2,10 @@
 #include <csignal>
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <yaml-cpp/yaml.h>
 
+#include "full_disk.hpp"
 #include "program.hpp"
 
 namespace heerk_rotor {
@@ -150,14 +150,10 @@ TEST(SimulateProgram, aDivergingRunWithoutOutputWritesToTheWorkingFolder) {
 TEST(SimulateProgram, aDiskThatFillsUpIsStatusOneWithCompleteRows) {
   const TestFolder folder;
   const std::string file = folder.file("x.csv");
-  rlimit previous;
-  getrlimit(RLIMIT_FSIZE, &previous);
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);  // both are inherited by the program
-  const rlimit limit = {1234567, previous.rlim_max};
-  setrlimit(RLIMIT_FSIZE, &limit);
-  const Finished run = simulate({kLagRotor, "--duration", "1000", "--output", file});
-  setrlimit(RLIMIT_FSIZE, &previous);
-  std::signal(SIGXFSZ, handler);
+  const Finished run = [&] {
+    const FullDisk full(1234567);
+    return simulate({kLagRotor, "--duration", "1000", "--output", file});
+  }();
   EXPECT_EQ(run.status, 1);
   EXPECT_TRUE(mentions(run.err, file + ": writing failed (File too large)")) << run.err;
   const std::string text = readText(file);

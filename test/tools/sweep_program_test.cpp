@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 #include <sched.h>
-#include <sys/resource.h>
 #include <yaml-cpp/yaml.h>
 
+#include "full_disk.hpp"
 #include "program.hpp"
 
 namespace heerk_rotor {
@@ -221,9 +221,10 @@ TEST(SweepProgram, ctrlCKeepsTheFinishedRuns) {
     const std::string text = std::filesystem::exists(file) ? readText(file) : "";
     return std::count(text.begin(), text.end(), '\n');
   };
-  for (int i = 0; i < 600 && lines() < 2; ++i) ::usleep(50000);
-  ASSERT_EQ(lines(), 2) << "header and the first run";
-  ::usleep(1000000);  // the worker begins the second run at once, on a busy machine a little later
+  ASSERT_TRUE(program.computesUntil([&] { return lines() == 2; })) << "header and the first run";
+  // The second run would take hours: what the program computes from here on, setting it up apart (a millisecond), is that run.
+  const double first_run = program.cpuTime();
+  ASSERT_TRUE(program.computesUntil([&] { return program.cpuTime() > first_run + 0.1; }));
   ASSERT_EQ(::kill(program.process(), SIGINT), 0);
   EXPECT_EQ(program.wait(), 130) << program.err();
   const Table table = parseTable(readText(file));
@@ -235,14 +236,10 @@ TEST(SweepProgram, ctrlCKeepsTheFinishedRuns) {
 TEST(SweepProgram, aDiskThatFillsUpIsStatusOneWithCompleteRows) {
   const TestFolder folder;
   const std::string file = folder.file("x.csv");
-  rlimit previous;
-  getrlimit(RLIMIT_FSIZE, &previous);
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);  // both are inherited by the program
-  const rlimit limit = {12345, previous.rlim_max};
-  setrlimit(RLIMIT_FSIZE, &limit);
-  const Finished run = simulate({kLagRotor, "--sweep", "subsystems.mast.stiffness=3e4:3e8:50:log", "--duration", "0.01", "--output", file});
-  setrlimit(RLIMIT_FSIZE, &previous);
-  std::signal(SIGXFSZ, handler);
+  const Finished run = [&] {
+    const FullDisk full(12345);
+    return simulate({kLagRotor, "--sweep", "subsystems.mast.stiffness=3e4:3e8:50:log", "--duration", "0.01", "--output", file});
+  }();
   EXPECT_EQ(run.status, 1);
   EXPECT_TRUE(mentions(run.err, file + ": writing failed (File too large)")) << run.err;
   const std::string text = readText(file);

@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
+#include <string>
 
 namespace heerk_rotor {
 
@@ -20,6 +21,13 @@ inline char* writeNumber(char* begin, double value) noexcept {
 
 inline char* writeNumber(char* begin, std::uint64_t value) noexcept {
   return std::to_chars(begin, begin + kLongestNumber, value).ptr;
+}
+
+/// The same as a string; double or std::uint64_t.
+template <class Number>
+std::string numberText(Number value) {
+  char buffer[kLongestNumber];
+  return std::string(buffer, writeNumber(buffer, value));
 }
 
 }  // namespace heerk_rotor

@@ -30,6 +30,8 @@ class Sweep {
   std::vector<std::string> values(std::uint64_t run) const;
   /// The same as overrides KEY=VALUE, to be applied after those of the command line.
   std::vector<std::string> overrides(std::uint64_t run) const;
+  /// The options of one run: the common ones with these overrides after their own.
+  SimulateOptions optionsOf(std::uint64_t run, SimulateOptions common) const;
   /// The first run in which that key (its number in keys()) is set, or 0 when it is set in none.
   std::uint64_t firstRunWith(std::size_t key) const;
 
