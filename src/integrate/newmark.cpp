@@ -1,10 +1,11 @@
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "implicit_pieces.hpp"
-#include "secant_memory.hpp"
+#include "narrow_newmark.hpp"
 #include "step_method_kinds.hpp"
 
 namespace heerk_rotor {
@@ -22,9 +23,13 @@ namespace {
 class Newmark final : public StepMethod {
  public:
   Newmark(const CoupledSystem& system, double h, double tolerance)
-      : h_(h), tolerance_(tolerance), size_(system.stateSize()), first_(Vector::Zero(size_)), last_(first_), residual_(first_), step_(first_), before_(first_), secants_(size_) {
-    for (const CoupledSystem::Subsystem& subsystem : system.subsystems())
+      : h_(h), size_(system.stateSize()), first_(Vector::Zero(size_)), last_(first_), right_(first_), iteration_(size_, tolerance) {
+    std::vector<const ImplicitPiece*> pieces;  // one per subsystem
+    for (const CoupledSystem::Subsystem& subsystem : system.subsystems()) {
       if (subsystem.x_size > 0) pieces_.push_back({subsystem.x_begin, subsystem.x_size, makeImplicitPiece(subsystem.stiff, 0.5 * h)});
+      pieces.push_back(subsystem.x_size > 0 ? pieces_.back().of.get() : nullptr);
+    }
+    if (system.hasNarrowForms()) narrow_.emplace(system, pieces, 0.5 * h, tolerance);
   }
 
   std::string name() const override { return "Newmark"; }
@@ -33,91 +38,92 @@ class Newmark final : public StepMethod {
   bool exponential() const override { return false; }
 
   Outcome advance(StageEvaluator& evaluate, double t, const Vector& x, Vector& next) noexcept override {
-    evaluate.atStart(true, first_.data());
-    // With J = S + what the memory knows, (I - h/2 J)^-1 (I + h/2 J) f_n = 2 (I - h/2 J)^-1 f_n - f_n.
-    solveLinear(first_, last_);
-    secants_.improve(last_);
-    last_ = 2.0 * last_ - first_;
-    bool taken = false;      // step_ has been applied in this step
-    bool forgotten = false;  // the memory was cleared in this step
-    double first_size = 0.0;  // of the corrections
-    double correction = std::numeric_limits<double>::infinity();
-    for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-      next = x + 0.5 * h_ * (first_ + last_);
-      if (!evaluate.at(t + h_, next, true, before_.data())) return Outcome::kStageFailed;
-      before_ -= last_;
-      solveLinear(before_, residual_);
-      secants_.improve(residual_);
-      if (taken && correction > kWorthLearning) {
-        secants_.learn(step_, residual_);
-        // H has changed: H_new p = left + a (b' p), and b' p = s' H p = s' left.
-        const double square = step_.squaredNorm(), along = step_.dot(residual_);
-        if (std::abs(square - along) > 1e-3 * square) residual_ *= 1.0 + along / (square - along);
-      }
-      step_ = residual_;
-      taken = true;
-      // Rounding in f, which loops of the system may amplify, can keep corrections above a very small tolerance: there they stop shrinking.
-      const double before = correction;
-      correction = relativeCorrection(x);
-      if (correction > before && before > kNoise * tolerance_ && !forgotten) {  // misled by what earlier steps taught: once, on from here with S alone
-        secants_.clear();
-        solveLinear(before_, step_);
-        correction = std::numeric_limits<double>::infinity();
-        taken = false;
-        forgotten = true;
-      }
-      const double size = step_.norm();
-      if (iteration == 0) first_size = size;
-      if (!(size <= kDiverged * first_size)) break;
-      last_ += step_;
-      if (correction <= tolerance_ || (correction >= before && correction <= kNoise * tolerance_)) {
-        next = x + 0.5 * h_ * (first_ + last_);
-        return Outcome::kDone;
+    if (narrow_) {
+      const NarrowNewmark::Outcome outcome = narrow_->advance(evaluate, t, x, next);
+      if (outcome == NarrowNewmark::Outcome::kDone) return Outcome::kDone;
+      narrow_->forget();
+      if (outcome == NarrowNewmark::Outcome::kGivenUp) {
+        if (!evaluate.at(t, x, true, first_.data())) return Outcome::kStageFailed;
+        return goOn(evaluate, t, x, next);
       }
     }
-    secants_.clear();
-    return Outcome::kNotConverged;
+    evaluate.atStart(true, first_.data());
+    return goOn(evaluate, t, x, next);
   }
 
-  std::vector<double> memory() const override { return secants_.values(); }
+  std::vector<double> memory() const override {
+    std::vector<double> values = iteration_.memory().values();
+    if (narrow_) {
+      const std::vector<double> more = narrow_->memory();
+      values.insert(values.end(), more.begin(), more.end());
+    }
+    return values;
+  }
   void restoreMemory(const std::vector<double>& memory) override {
-    if (memory.empty()) secants_.clear();
-    else secants_.restore(memory);
+    if (memory.empty()) {
+      iteration_.memory().clear();
+      if (narrow_) narrow_->forget();
+      return;
+    }
+    const auto split = memory.begin() + static_cast<std::ptrdiff_t>(std::min(memory.size(), iteration_.memory().values().size()));
+    iteration_.memory().restore({memory.begin(), split});
+    if (narrow_) narrow_->restoreMemory({split, memory.end()});
+    else if (split != memory.end()) throw std::invalid_argument("Newmark's memory: " + std::to_string(memory.size()) + " numbers, expected " + std::to_string(split - memory.begin()));
   }
 
  private:
-  static constexpr int kMaxIterations = 50;  // a good step takes two or three
   static constexpr double kSmall = 1e-3;
-  static constexpr double kDiverged = 1e3;        // growth of the corrections
-  static constexpr double kWorthLearning = 1e-9;  // relative correction; what smaller ones change is mostly rounding
-  static constexpr double kNoise = 1e3;      // tolerances: corrections that do not shrink any more may be so large
   struct Piece {
     Index begin, size;  // states of the subsystem
     std::unique_ptr<ImplicitPiece> of;
   };
 
+  /// From f at the start of the step.
+  Outcome goOn(StageEvaluator& evaluate, double t, const Vector& x, Vector& next) noexcept {
+    // With J = S + what the memory knows, (I - h/2 J)^-1 (I + h/2 J) f_n = 2 (I - h/2 J)^-1 f_n - f_n.
+    solveLinear(first_, last_);
+    iteration_.memory().improve(last_);
+    last_ = 2.0 * last_ - first_;
+    const auto residual = [&](const Vector& last, Vector& result) noexcept {
+      next = x + 0.5 * h_ * (first_ + last);
+      if (!evaluate.at(t + h_, next, true, right_.data())) return false;
+      right_ -= last;
+      solveLinear(right_, result);
+      return true;
+    };
+    const auto size = [&](const Vector& step) noexcept { return relativeCorrection(x, step); };
+    switch (iteration_.solve(last_, residual, size)) {
+      case SecantIteration::End::kNoResidual: return Outcome::kStageFailed;
+      case SecantIteration::End::kDiverged: return Outcome::kNotConverged;
+      case SecantIteration::End::kSolved: break;
+    }
+    next = x + 0.5 * h_ * (first_ + last_);
+    return Outcome::kDone;
+  }
+
   void solveLinear(const Vector& right, Vector& result) const noexcept {
     for (const Piece& piece : pieces_) piece.of->solve(right.data() + piece.begin, result.data() + piece.begin);
   }
 
-  /// Of the state at the end of the step by step_; the worst subsystem. One that is (nearly) at rest is measured in a small part of the whole.
-  double relativeCorrection(const Vector& x) const noexcept {
+  /// Of the state at the end of the step by a change of a; the worst subsystem. One that is (nearly) at rest is measured in a small part of the whole.
+  double relativeCorrection(const Vector& x, const Vector& step) const noexcept {
     double worst = 0.0;
     const double floor = kSmall * (x.norm() + h_ * last_.norm());
     for (const Piece& piece : pieces_) {
-      const double correction = 0.5 * h_ * step_.segment(piece.begin, piece.size).norm();
+      const double correction = 0.5 * h_ * step.segment(piece.begin, piece.size).norm();
       const double magnitude = x.segment(piece.begin, piece.size).norm() + h_ * last_.segment(piece.begin, piece.size).norm();
       if (correction > 0.0) worst = std::max(worst, correction / std::max(magnitude, floor));
     }
     return worst;
   }
 
-  const double h_, tolerance_;
+  const double h_;
   const Index size_;
   std::vector<Piece> pieces_;  // subsystems with states
   Vector first_, last_;        // f at both ends of the step
-  Vector residual_, step_, before_;
-  SecantMemory secants_;
+  Vector right_;               // f - a
+  SecantIteration iteration_;
+  std::optional<NarrowNewmark> narrow_;  // of a system that has narrow forms
 };
 
 }  // namespace
