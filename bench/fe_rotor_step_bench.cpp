@@ -53,6 +53,11 @@ class Timed final : public SubsystemModel {
     model_->evalOutput(port, t, x, u, y);
     spent_ += wallMicroseconds() - begin;
   }
+  void evalOutputs(const PortValue* values, Index count, double t, const In& x, const In& u) noexcept override {
+    const double begin = wallMicroseconds();
+    model_->evalOutputs(values, count, t, x, u);
+    spent_ += wallMicroseconds() - begin;
+  }
   void evalDerivatives(double t, const In& x, const In& u, Out xdot) noexcept override {
     const double begin = wallMicroseconds();
     model_->evalDerivatives(t, x, u, xdot);

@@ -103,26 +103,29 @@ bool CoupledSystem::gather(Index number, const Vector& y, const Vector& w, Vecto
   return changed;
 }
 
-void CoupledSystem::evalOutput(Index number, double t, const Vector& x, const Vector& u, double* result) noexcept {
-  const Output& output = outputs_[number];
-  const Subsystem& s = subsystems_[output.subsystem];
-  s.model->evalOutput(output.port, t, In(x.data() + s.x_begin, s.x_size), In(u.data() + s.u_begin, s.u_size), Out(result, output.size));
+void CoupledSystem::evalOutputs(const Index* outputs, Index count, double t, const In& x, const Vector& u, double* const* results) noexcept {
+  PortValue values[kTogether];
+  for (Index k = 0; k < count; ++k) {
+    const Port& p = ports_[static_cast<std::size_t>(outputs[k])];
+    values[k] = {p.number, results[k], p.size};
+  }
+  const Port& p = ports_[static_cast<std::size_t>(outputs[0])];
+  p.model->evalOutputs(values, count, t, x, In(u.data() + p.u_begin, p.u_size));
 }
 
-void CoupledSystem::evalRemainderOf(const Subsystem& s, double t, const In& x, const Vector& u, bool complete, double* remainder) noexcept {
-  const In us(u.data() + s.u_begin, s.u_size);
-  const Out out(remainder, s.x_size);
-  if (!complete && s.provides_remainder) {
-    s.model->evalRemainder(t, x, us, out);
+void CoupledSystem::evalRemainderOf(const Rates& of, double t, const In& x, const Vector& u, bool complete, double* remainder) noexcept {
+  const In us(u.data() + of.u_begin, of.u_size);
+  const Out out(remainder, of.x_size);
+  if (!complete && of.provides_remainder) {
+    of.model->evalRemainder(t, x, us, out);
   } else {
-    s.model->evalDerivatives(t, x, us, out);
-    if (!complete && !std::holds_alternative<ZeroStiff>(s.stiff)) subtractStiff(s.stiff, x, In(out.data(), out.size()), out);
+    of.model->evalDerivatives(t, x, us, out);
+    if (!complete && of.stiff) subtractStiff(*of.stiff, x, In(out.data(), out.size()), out);
   }
 }
 
 void CoupledSystem::evalRemainder(double t, const Vector& x, const Vector& u, bool complete, double* remainder) noexcept {
-  for (const Subsystem& s : subsystems_)
-    if (s.x_size > 0) evalRemainderOf(s, t, In(x.data() + s.x_begin, s.x_size), u, complete, remainder + s.x_begin);
+  for (const Rates& of : rates_) evalRemainderOf(of, t, In(x.data() + of.x_begin, of.x_size), u, complete, remainder + of.x_begin);
 }
 
 void CoupledSystem::layOutStages() {
@@ -134,6 +137,17 @@ void CoupledSystem::layOutStages() {
     z_size_ += s.z_size = s.narrow ? s.narrow->C.rows() : s.x_size;
     r_size_ += s.r_size = s.narrow ? s.narrow->B.cols() : s.x_size;
     has_narrow_forms_ = has_narrow_forms_ || s.narrow;
+  }
+  ports_.clear();
+  for (const Output& o : outputs_) {
+    const Subsystem& s = subsystems_[o.subsystem];
+    ports_.push_back({s.model.get(), o.port, s.narrow != nullptr, s.x_begin, s.x_size, s.z_begin, s.z_size, s.u_begin, s.u_size, o.size});
+  }
+  rates_.clear();
+  for (const Subsystem& s : subsystems_) {
+    if (s.x_size == 0) continue;
+    rates_.push_back({s.model.get(), s.narrow != nullptr, s.provides_remainder, std::holds_alternative<ZeroStiff>(s.stiff) ? nullptr : &s.stiff, s.x_begin, s.x_size, s.z_begin, s.z_size,
+                      s.r_begin, s.r_size, s.u_begin, s.u_size});
   }
 }
 
@@ -147,20 +161,11 @@ void CoupledSystem::chooseNarrowForms(const std::vector<char>& needed) {
   layOutStages();
 }
 
-void CoupledSystem::evalStageOutput(Index number, double t, const Vector& z, const Vector& u, double* result) noexcept {
-  const Output& output = outputs_[number];
-  const Subsystem& s = subsystems_[output.subsystem];
-  const In zs(z.data() + s.z_begin, s.z_size), us(u.data() + s.u_begin, s.u_size);
-  if (s.narrow) s.model->evalNarrowOutput(output.port, t, zs, us, Out(result, output.size));
-  else s.model->evalOutput(output.port, t, zs, us, Out(result, output.size));
-}
-
 bool CoupledSystem::evalStageRemainder(double t, const Vector& z, const Vector& u, double* r) noexcept {
-  for (const Subsystem& s : subsystems_) {
-    if (s.x_size == 0) continue;
-    const In zs(z.data() + s.z_begin, s.z_size);
-    if (!s.narrow) evalRemainderOf(s, t, zs, u, false, r + s.r_begin);
-    else if (!s.model->evalNarrowRemainder(t, zs, In(u.data() + s.u_begin, s.u_size), Out(r + s.r_begin, s.r_size))) return false;
+  for (const Rates& of : rates_) {
+    const In zs(z.data() + of.z_begin, of.z_size);
+    if (!of.narrow) evalRemainderOf(of, t, zs, u, false, r + of.r_begin);
+    else if (!of.model->evalNarrowRemainder(t, zs, In(u.data() + of.u_begin, of.u_size), Out(r + of.r_begin, of.r_size))) return false;
   }
   return true;
 }

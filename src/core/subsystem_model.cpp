@@ -4,6 +4,10 @@ namespace heerk_rotor {
 
 StiffPart SubsystemModel::stiffPart() const { return ZeroStiff{static_cast<Index>(states().size())}; }
 
+void SubsystemModel::evalOutputs(const PortValue* values, Index count, double t, const In& x, const In& u) noexcept {
+  for (Index k = 0; k < count; ++k) evalOutput(values[k].port, t, x, u, Out(values[k].y, values[k].size));
+}
+
 void SubsystemModel::evalRemainder(double t, const In& x, const In& u, Out remainder) noexcept {
   evalDerivatives(t, x, u, remainder);  // right for S = 0; a model with providesRemainder() overrides this
 }

@@ -51,18 +51,16 @@ class MatrixPropagator final : public LinearPropagator {
   /// Everything in registers.
   template <int N>
   void combineSmall(RowPlan::Row range, const RowPlan::Columns& from, double* __restrict result) const noexcept {
-    double sum[N] = {};
-    for (int p = range.begin; p < range.end; ++p) {
-      const RowPlan::Product& product = plan_.products[p];
-      const double* a = from.first(product);
-      const double* b = from.second(product);
-      const double* m = table_.data() + N * N * product.entry;
-      for (int j = 0; j < N; ++j) {
-        const double s = b ? a[j] + b[j] : a[j];
-        for (int i = 0; i < N; ++i) sum[i] += m[i + N * j] * s;
-      }
+    using Column = Eigen::Array<double, N, 1>;
+    Column sum = Column::Zero();
+    const RowPlan::Product* const end = plan_.products.data() + range.end;
+    for (const RowPlan::Product* product = plan_.products.data() + range.begin; product != end; ++product) {
+      Column column = Eigen::Map<const Column>(from.first(*product));
+      if (const double* const second = from.second(*product)) column += Eigen::Map<const Column>(second);
+      const double* const m = table_.data() + N * N * product->entry;
+      for (int j = 0; j < N; ++j) sum += Eigen::Map<const Column>(m + N * j) * column[j];
     }
-    for (int i = 0; i < N; ++i) result[i] = sum[i];
+    Eigen::Map<Column>{result} = sum;
   }
 
   /// Tile by tile: the table is read once, in order, and the sums stay in registers over all products of the row.

@@ -82,7 +82,7 @@ class Newmark final : public StepMethod {
   Outcome goOn(StageEvaluator& evaluate, double t, const Vector& x, Vector& next) noexcept {
     // With J = S + what the memory knows, (I - h/2 J)^-1 (I + h/2 J) f_n = 2 (I - h/2 J)^-1 f_n - f_n.
     solveLinear(first_, last_);
-    iteration_.memory().improve(last_);
+    iteration_.memory().improve(last_.data());
     last_ = 2.0 * last_ - first_;
     const auto residual = [&](const Vector& last, Vector& result) noexcept {
       next = x + 0.5 * h_ * (first_ + last);

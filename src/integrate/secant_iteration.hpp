@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "secant_memory.hpp"
+#include "heerk_rotor/solve/secant_memory.hpp"
 
 namespace heerk_rotor {
 
@@ -24,13 +24,8 @@ class SecantIteration {
     for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
       if (!residual(a, raw_)) return End::kNoResidual;
       left_ = raw_;
-      memory_.improve(left_);
-      if (taken && correction > kWorthLearning) {
-        memory_.learn(step_, left_);
-        // H has changed: H_new p = left + a (b' p), and b' p = s' H p = s' left.
-        const double square = step_.squaredNorm(), along = step_.dot(left_);
-        if (std::abs(square - along) > 1e-3 * square) left_ *= 1.0 + along / (square - along);
-      }
+      memory_.improve(left_.data());
+      if (taken && correction > kWorthLearning) memory_.learn(step_.data(), left_.data());
       step_ = left_;
       taken = true;
       // Rounding in f, which loops of the system may amplify, can keep corrections above a very small tolerance: there they stop shrinking.

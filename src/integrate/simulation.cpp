@@ -15,9 +15,16 @@ double paperTolerance(const StepOptions& options) {
 }
 
 Index firstNonFinite(const double* values, Index size) noexcept {
-  // The sum is not finite when a term is not (or, rarely, when it overflows): one vectorised pass in the usual case.
-  if (std::isfinite(In(values, size).sum())) return -1;
-  for (Index i = 0; i < size; ++i)
+  // A sum is not finite when a term is not (or, rarely, when it overflows): one pass in registers in the usual case.
+  using Lanes = Eigen::Array<double, 4, 1>;
+  Lanes sums = Lanes::Zero();
+  double rest = 0.0;
+  Index i = 0;
+  for (; i + 4 <= size; i += 4) sums += Eigen::Map<const Lanes>(values + i);
+#pragma GCC unroll 1
+  for (; i < size; ++i) rest += values[i];
+  if (std::isfinite(sums.sum() + rest)) return -1;
+  for (i = 0; i < size; ++i)
     if (!std::isfinite(values[i])) return i;
   return -1;
 }

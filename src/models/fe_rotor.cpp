@@ -123,14 +123,28 @@ class FeRotor : public SubsystemModel {
                       Eigen::Map<const Vector>(c.damping.data(), static_cast<Index>(c.damping.size()))};
   }
 
-  void evalOutput(Index port, double, const In& x, const In& u, Out y) noexcept override {
+  void evalOutput(Index port, double t, const In& x, const In& u, Out y) noexcept override {
+    const PortValue value{port, y.data(), y.size()};
+    evalOutputs(&value, 1, t, x, u);
+  }
+
+  void evalOutputs(const PortValue* values, Index count, double, const In& x, const In& u) noexcept override {
     dynamics_.deform(x.data());
-    switch (port) {
-      case kSectionPosition: case kSectionVelocity: case kSectionAxes: case kSectionPitch: case kSectionPitchRate: sectionGeometry(port, u, y); break;
-      case kSectionAcceleration: sectionAcceleration(u, y); break;
-      case kRotorForce: case kTiltingMoment: case kBladeReaction: case kRootLoad: hubLoads(port, u, y); break;
-      case kLag: case kLagRate: case kFlap: case kFlapRate: case kFlapAcceleration: case kTipTwist: tip(port, u, y); break;
-      case kMomentum: case kAngularMomentum: case kEnergy: case kDissipation: balance(port, u, y); break;
+    bool accelerated = false;
+    for (Index k = 0; k < count; ++k) {
+      const Index port = values[k].port;
+      if (!accelerated && (port == kSectionAcceleration || port == kRotorForce || port == kTiltingMoment || port == kBladeReaction || port == kRootLoad || port == kFlapAcceleration)) {
+        accelerate(u);
+        accelerated = true;
+      }
+      Out y(values[k].y, values[k].size);
+      switch (port) {
+        case kSectionPosition: case kSectionVelocity: case kSectionAxes: case kSectionPitch: case kSectionPitchRate: sectionGeometry(port, u, y); break;
+        case kSectionAcceleration: sectionAcceleration(u, y); break;
+        case kRotorForce: case kTiltingMoment: case kBladeReaction: case kRootLoad: hubLoads(port, u, y); break;
+        case kLag: case kLagRate: case kFlap: case kFlapRate: case kFlapAcceleration: case kTipTwist: tip(port, u, y); break;
+        case kMomentum: case kAngularMomentum: case kEnergy: case kDissipation: balance(port, u, y); break;
+      }
     }
   }
 
@@ -268,7 +282,6 @@ class FeRotor : public SubsystemModel {
   static Vec inverseNorm(const Vec3& v) noexcept { return 1.0 / squareRoot<L>(dot(v, v)); }
 
   void sectionAcceleration(const In& u, Out y) noexcept {
-    accelerate(u);
     const BladeAxes<L>& axes = movingAxes(u);
     const double* mount = input(u, kMountAcceleration);
     const double* gravity = input(u, kHubGravity);
@@ -302,7 +315,6 @@ class FeRotor : public SubsystemModel {
   }
 
   void hubLoads(Index port, const In& u, Out y) noexcept {
-    accelerate(u);
     const Vec3 force = dynamics_.rootForce(), moment = dynamics_.rootMoment();
     if (port == kRootLoad) {
       for (int k = 0; k < blades_; ++k) y.segment(6 * k, 6) << force.x[k], force.y[k], force.z[k], moment.x[k], moment.y[k], moment.z[k];
@@ -330,7 +342,6 @@ class FeRotor : public SubsystemModel {
       const Vec3 relative{Vec{}, rate.v, rate.w}, spin{axes.pitch_rate, Vec{}, Vec{}};
       value = cross(spin, position) + relative;
       if (port == kFlapAcceleration) {
-        accelerate(u);
         const SectionMotion<L> second = dynamics_.displacementAcceleration(j);
         Vec3 spin_rate{};
         if (!p_.small_angle) spin_rate.x = loadLanes<L>(input(u, kPitchAcceleration), blades_);

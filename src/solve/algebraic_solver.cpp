@@ -9,6 +9,10 @@
 
 namespace heerk_rotor {
 
+namespace {
+constexpr Index kLong = 16;  // numbers of a port that are worth sparing a copy
+}
+
 struct AlgebraicSolver::Implementation {
   explicit Implementation(CoupledSystem& system) : values(system) {}
 
@@ -16,32 +20,81 @@ struct AlgebraicSolver::Implementation {
   struct Action {
     enum class Kind { kCopy, kFetch, kEvaluate, kSolveLoop };
     Kind kind;
-    Index number;                 // kFetch: input; kEvaluate: output; kSolveLoop: loop
+    Index number;                 // kFetch: input; kSolveLoop: loop; kEvaluate: first of `ports` and `results`
+    Index size = 0;               // kCopy: numbers; kEvaluate: ports, all of one subsystem
     const double* from = nullptr; // kCopy: the one output that feeds an input
     double* to = nullptr;
-    Index size = 0;
   };
 
   PortValues values;
   std::vector<LoopSolver> loops;
   std::vector<Action> actions, observed_actions;   // what f needs, and what only observers need
+  std::vector<Index> ports;                        // of kEvaluate
+  std::vector<double*> results;                    // where their values go
   std::vector<LoopInfo> infos;
   SolverCounters counters;
 
   Action take(Index number) {
     const CoupledSystem::Input& input = values.system.inputs()[number];
     if (input.source_begin.size() != 1) return {Action::Kind::kFetch, number};
-    return {Action::Kind::kCopy, number, values.y.data() + input.source_begin[0], values.u.data() + input.begin, input.size};
+    return {Action::Kind::kCopy, number, input.size, values.y.data() + input.source_begin[0], values.u.data() + input.begin};
+  }
+
+  /// The input that alone reads a port outside loops, with no other source: -1 if there is none such.
+  Index onlyReader(Index output) const {
+    Index reader = -1, readers = 0;
+    for (std::size_t i = 0; i < values.system.inputs().size(); ++i) {
+      const CoupledSystem::Input& input = values.system.inputs()[i];
+      if (std::find(input.sources.begin(), input.sources.end(), output) == input.sources.end()) continue;
+      ++readers;
+      reader = input.sources.size() == 1 ? static_cast<Index>(i) : -1;
+    }
+    return readers == 1 ? reader : -1;
   }
 
   std::vector<Action> actionsOf(const std::vector<EvaluationPlan::Item>& items, const std::vector<Index>& last_inputs) {
+    const auto& outputs = values.system.outputs();
     std::vector<Action> list;
+    std::vector<char> written(values.system.inputs().size(), 0);  // inputs into which the port that feeds them writes
+    const auto takeOver = [&](Index input) { if (!written[input]) list.push_back(take(input)); };
+    std::vector<Index> group;  // outputs of the last action, when that is an evaluation
     for (const EvaluationPlan::Item& item : items) {
-      for (const Index input : item.inputs) list.push_back(take(input));
-      if (item.output >= 0) list.push_back({Action::Kind::kEvaluate, item.output});
-      else list.push_back({Action::Kind::kSolveLoop, item.loop});
+      if (item.output < 0) {
+        for (const Index input : item.inputs) takeOver(input);
+        list.push_back({Action::Kind::kSolveLoop, item.loop});
+        group.clear();
+        continue;
+      }
+      const CoupledSystem::Output& output = outputs[item.output];
+      const auto feedsItself = [&](Index input) {
+        const auto& sources = values.system.inputs()[input].sources;
+        return std::any_of(sources.begin(), sources.end(), [&](Index source) { return std::find(group.begin(), group.end(), source) != group.end(); });
+      };
+      const bool joins = !group.empty() && outputs[group.front()].subsystem == output.subsystem && group.size() < static_cast<std::size_t>(CoupledSystem::kTogether) &&
+                         std::none_of(item.inputs.begin(), item.inputs.end(), feedsItself);
+      Action evaluate{Action::Kind::kEvaluate, static_cast<Index>(ports.size()), 0};
+      if (joins) {
+        evaluate = list.back();
+        list.pop_back();
+      } else {
+        group.clear();
+      }
+      for (const Index input : item.inputs) takeOver(input);
+      // A long port that a single input reads goes there at once; y gets it only when somebody observes.
+      double* result = values.y.data() + output.begin;
+      if (const Index reader = onlyReader(item.output); output.size > kLong && reader >= 0) {
+        const CoupledSystem::Input& input = values.system.inputs()[reader];
+        result = values.u.data() + input.begin;
+        written[reader] = 1;
+        observed_actions.push_back({Action::Kind::kCopy, reader, output.size, result, values.y.data() + output.begin});
+      }
+      ports.push_back(item.output);
+      results.push_back(result);
+      group.push_back(item.output);
+      ++evaluate.size;
+      list.push_back(evaluate);
     }
-    for (const Index input : last_inputs) list.push_back(take(input));
+    for (const Index input : last_inputs) takeOver(input);
     return list;
   }
 
@@ -51,7 +104,7 @@ struct AlgebraicSolver::Implementation {
       switch (action.kind) {
         case Action::Kind::kCopy: copyShort(action.from, action.size, action.to); break;
         case Action::Kind::kFetch: values.system.fetch(action.number, values.y, w, values.u); break;
-        case Action::Kind::kEvaluate: values.evaluateInto(action.number, t, x, values.y); break;
+        case Action::Kind::kEvaluate: values.evaluateInto(ports.data() + action.number, action.size, t, x, results.data() + action.number); break;
         case Action::Kind::kSolveLoop: {
           const SolveReport report = loops[static_cast<std::size_t>(action.number)].solve(t, x, w);
           if (report.status != SolveStatus::kConverged) return report;
@@ -82,7 +135,8 @@ AlgebraicSolver::AlgebraicSolver(CoupledSystem& system, const SolverOptions& opt
   system.chooseNarrowForms(neededInStages(plan, system));
   for (std::size_t l = 0; l < plan.pruned.size(); ++l) s.loops.emplace_back(s.values, options, s.counters, plan.pruned[l], plan.full[l]);
   s.actions = s.actionsOf(plan.stage, plan.last_inputs);
-  s.observed_actions = s.actionsOf(plan.observed, {});
+  const auto observed = s.actionsOf(plan.observed, {});
+  s.observed_actions.insert(s.observed_actions.end(), observed.begin(), observed.end());
   for (std::size_t input = 0; input < system.inputs().size(); ++input)  // constants and commands, before anything reads them
     s.values.gather(static_cast<Index>(input), w);
 
@@ -114,7 +168,12 @@ void AlgebraicSolver::evalObserved(double t, const Vector& x, const Vector& w) n
 const Vector& AlgebraicSolver::y() const { return impl_->values.y; }
 const Vector& AlgebraicSolver::u() const { return impl_->values.u; }
 const SolverCounters& AlgebraicSolver::counters() const { return impl_->counters; }
-const std::vector<std::uint64_t>& AlgebraicSolver::outputEvaluations() const { return impl_->values.evaluations; }
+std::vector<std::uint64_t> AlgebraicSolver::outputEvaluations() const {
+  const CoupledSystem& system = impl_->values.system;
+  std::vector<std::uint64_t> sums(system.subsystems().size(), 0);
+  for (std::size_t o = 0; o < system.outputs().size(); ++o) sums[static_cast<std::size_t>(system.outputs()[o].subsystem)] += impl_->values.evaluations[o];
+  return sums;
+}
 const std::vector<LoopInfo>& AlgebraicSolver::loops() const { return impl_->infos; }
 
 std::vector<double> AlgebraicSolver::cache() const {

@@ -211,6 +211,46 @@ EntryGraph coarse(const CoupledSystem& system, const std::vector<Index>& compone
   return graph;
 }
 
+/// Components in an order of dependency in which ports of one subsystem stand together as far as possible, so that one call can evaluate them: next is a
+/// component of the subsystem before, otherwise of the one that has the fewest ports waiting for others.
+std::vector<std::vector<Index>> bySubsystem(std::vector<std::vector<Index>> components, const std::vector<std::vector<Index>>& depends, const CoupledSystem& system) {
+  std::vector<std::size_t> component_of(depends.size());
+  for (std::size_t c = 0; c < components.size(); ++c)
+    for (const Index port : components[c]) component_of[static_cast<std::size_t>(port)] = c;
+  const auto ownerOf = [&](std::size_t c) { return system.outputs()[static_cast<std::size_t>(components[c][0])].subsystem; };
+  std::vector<char> done(components.size(), 0);
+  const auto isReady = [&](std::size_t c) {
+    for (const Index port : components[c])
+      for (const Index source : depends[static_cast<std::size_t>(port)])
+        if (const std::size_t other = component_of[static_cast<std::size_t>(source)]; other != c && !done[other]) return false;
+    return true;
+  };
+  std::vector<std::vector<Index>> order;
+  Index last = -1;
+  while (order.size() < components.size()) {
+    std::vector<char> ready(components.size(), 0);
+    std::vector<int> waiting(system.subsystems().size(), 0);
+    for (std::size_t c = 0; c < components.size(); ++c) {
+      if (done[c]) continue;
+      ready[c] = isReady(c);
+      if (!ready[c]) ++waiting[static_cast<std::size_t>(ownerOf(c))];
+    }
+    std::size_t best = components.size();
+    int fewest = 0;
+    for (std::size_t c = 0; c < components.size(); ++c) {
+      if (!ready[c]) continue;
+      const int of_owner = ownerOf(c) == last ? -1 : waiting[static_cast<std::size_t>(ownerOf(c))];
+      if (best < components.size() && of_owner >= fewest) continue;
+      best = c;
+      fewest = of_owner;
+    }
+    done[best] = 1;
+    last = ownerOf(best);
+    order.push_back(components[best]);
+  }
+  return order;
+}
+
 }  // namespace
 
 EvaluationPlan planEvaluation(CoupledSystem& system, double t, const Vector& x, const Vector& w) {
@@ -220,7 +260,7 @@ EvaluationPlan planEvaluation(CoupledSystem& system, double t, const Vector& x, 
   for (std::size_t o = 0; o < outputs.size(); ++o)
     for (const Index input : outputs[o].feedthrough)
       depends[o].insert(depends[o].end(), inputs[input].sources.begin(), inputs[input].sources.end());
-  const auto components = strongComponents(depends);
+  const auto components = bySubsystem(strongComponents(depends), depends, system);
   const auto isLoop = [&](const std::vector<Index>& component) {
     return component.size() > 1 || std::find(depends[component[0]].begin(), depends[component[0]].end(), component[0]) != depends[component[0]].end();
   };

@@ -7,6 +7,7 @@ namespace heerk_rotor {
 namespace {
 
 constexpr double kLostContraction = 0.3;   // ratio of two corrections above which the Jacobian is refreshed
+constexpr double kWorthLearning = 1e-9;    // correction; what smaller ones change is mostly rounding
 constexpr double kDifference = 1.5e-8;     // relative step of forward differences, sqrt of the machine precision
 constexpr double kRoundOff = 64 * 2.2e-16; // a residual below this share of the value cannot be lowered any more
 
@@ -22,7 +23,10 @@ LoopSolver::LoopSolver(PortValues& values, const SolverOptions& options, SolverC
       for (std::size_t k = 0; k < loop->nominal.size(); ++k)
         if (loop->plan.unknowns[k] >= output.begin && loop->plan.unknowns[k] < output.begin + output.size) loop->inverse_nominal[k] = 1.0 / (loop->nominal[k] = output.nominal);
     }
-  for (Loop* loop : {&pruned_, &full_}) loop->jacobian.setZero(largest);
+  for (Loop* loop : {&pruned_, &full_}) {
+    loop->jacobian.setZero(largest);
+    loop->core_groups = groupBySubsystem(values_.system, loop->plan.core);
+  }
   markUnknowns();
 }
 
@@ -33,14 +37,14 @@ void LoopSolver::adopt(Index port) noexcept {
     if (!is_unknown_[e]) values_.y[e] = values_.g[e];
 }
 
-/// Residual g - y of the unknowns into loop.step, all else that the loop reads being known.
+/// Residual g - y of the unknowns into loop.step (in units of the nominal magnitudes), all else that the loop reads being known.
 void LoopSolver::residual(Loop& loop, double t, const Vector& x, const Vector& w) noexcept {
   ++counters_.residual_evaluations;
   for (const Index input : loop.plan.core_inputs) values_.gather(input, w);
-  for (const Index port : loop.plan.core) values_.evaluate(port, t, x);
+  for (const PortGroup& group : loop.core_groups) values_.evaluate(loop.plan.core.data() + group.begin, static_cast<Index>(group.end - group.begin), t, x);
   for (std::size_t k = 0; k < loop.plan.unknowns.size(); ++k) {
     const Index e = loop.plan.unknowns[k];
-    loop.step[k] = values_.g[e] - values_.y[e];
+    loop.step[k] = (values_.g[e] - values_.y[e]) * loop.inverse_nominal[k];
   }
 }
 
@@ -83,8 +87,7 @@ bool LoopSolver::refresh(Loop& loop, double t, const Vector& x, const Vector& w)
   residual(loop, t, x, w);  // u and g belong to y again
   applyModelJacobians(loop, t, x);
   ++counters_.factorizations;
-  loop.factorized = loop.lu.factorize(loop.matrix);
-  return loop.factorized;
+  return factorize(loop);
 }
 
 /// Replaces differenced rows by exact ones where a model knows d(port)/d(u): an unknown y_j reaches the inputs it feeds.
@@ -115,15 +118,26 @@ void LoopSolver::applyModelJacobians(Loop& loop, double t, const Vector& x) noex
   }
 }
 
+bool LoopSolver::factorize(Loop& loop) noexcept {
+  loop.secants.clear();
+  loop.factorized = loop.lu.factorize(loop.matrix);
+  if (loop.factorized && loop.inverse.applies()) loop.inverse.take(loop.lu);
+  return loop.factorized;
+}
+
+void LoopSolver::solveLinear(Loop& loop) noexcept {
+  if (loop.inverse.applies()) loop.inverse.apply(loop.step.data());
+  else loop.lu.solve(loop.step.data());
+}
+
 /// loop.step (a residual) becomes the Newton correction. Its maximum over max(nominal, |y|), infinite when not finite,
-/// estimates the error of the unknowns; `worst` is the entry that has it.
-double LoopSolver::correction(Loop& loop, Index& worst) noexcept {
-  const std::size_t n = loop.step.size();
-  for (std::size_t k = 0; k < n; ++k) loop.step[k] *= loop.inverse_nominal[k];
-  loop.lu.solve(loop.step.data());
-  loop.broyden.improve(loop.step.data());
+/// estimates the error of the unknowns; `worst` is the entry that has it. `learn`: from what loop.taken has left.
+double LoopSolver::correction(Loop& loop, bool learn, Index& worst) noexcept {
+  solveLinear(loop);
+  loop.secants.improve(loop.step.data());
+  if (learn) loop.secants.learn(loop.taken.data(), loop.step.data());
   double norm = -1.0;
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::size_t k = 0; k < loop.step.size(); ++k) {
     const Index e = loop.plan.unknowns[k];
     double scaled = std::abs(loop.step[k]);
     if (const double size = std::abs(values_.y[e]) * loop.inverse_nominal[k]; size > 1.0) scaled /= size;
@@ -132,43 +146,61 @@ double LoopSolver::correction(Loop& loop, Index& worst) noexcept {
       norm = scaled;
       worst = e;
     }
-    loop.step[k] *= loop.nominal[k];
   }
   return norm;
 }
 
-/// Simplified Newton; the LU is kept as long as the corrections shrink. The tolerance is on the correction, not on the
+/// Simplified Newton; the LU is kept as long as the corrections shrink, improved by secants. The tolerance is on the correction, not on the
 /// residual: a loop like that of the mast hides an error 700 times larger than its residual.
 SolveReport LoopSolver::iterate(Loop& loop, double t, const Vector& x, const Vector& w) noexcept {
   SolveReport report;
   double previous = HUGE_VAL;
   bool fresh = false;
-  loop.broyden.clear();
   for (;; ++report.iterations) {
     residual(loop, t, x, w);
     if (!loop.factorized && !refresh(loop, t, x, w)) break;
-    report.error = correction(loop, report.entry);
+    report.error = correction(loop, report.iterations > 0 && !fresh && previous > kWorthLearning, report.entry);
     if (report.error <= options_.tolerance) return report;
     if (!(report.error <= kLostContraction * previous)) {
       if (residualIsRoundOff(loop)) return report;  // corrections only stir round-off
       if (report.iterations > 0 && !fresh) {
         if (!refresh(loop, t, x, w)) break;
-        loop.broyden.clear();
-        report.error = correction(loop, report.entry);
+        report.error = correction(loop, false, report.entry);
         fresh = true;
       } else {
         fresh = false;
       }
+    } else {
+      fresh = false;
     }
     if (report.iterations >= options_.max_iterations || !std::isfinite(report.error)) break;
     previous = report.error;
-    loop.broyden.remember(loop.step.data(), loop.inverse_nominal.data());
-    for (std::size_t k = 0; k < loop.plan.unknowns.size(); ++k) values_.y[loop.plan.unknowns[k]] += loop.step[k];
+    loop.taken = loop.step;
+    for (std::size_t k = 0; k < loop.plan.unknowns.size(); ++k) values_.y[loop.plan.unknowns[k]] += loop.step[k] * loop.nominal[k];
     ++counters_.newton_iterations;
   }
   if (report.entry < 0) report.entry = loop.plan.unknowns.front();
   const bool finite = std::isfinite(report.error) && std::all_of(loop.matrix.begin(), loop.matrix.end(), [](double v) { return std::isfinite(v); });
   report.status = !finite ? SolveStatus::kNonFinite : loop.factorized ? SolveStatus::kStalled : SolveStatus::kSingular;
+  return report;
+}
+
+/// From where the unknowns are likely to be; should that lead nowhere, from where they were.
+SolveReport LoopSolver::iterateFromPrediction(Loop& loop, double t, const Vector& x, const Vector& w) noexcept {
+  const std::vector<Index>& unknowns = loop.plan.unknowns;
+  for (std::size_t k = 0; k < unknowns.size(); ++k) loop.before[k] = values_.y[unknowns[k]];
+  const bool predicted = loop.start.predict(t, loop.predicted.data());
+  if (predicted) for (std::size_t k = 0; k < unknowns.size(); ++k) values_.y[unknowns[k]] = loop.predicted[k];
+  SolveReport report = iterate(loop, t, x, w);
+  if (report.status != SolveStatus::kConverged && predicted) {
+    loop.start.forget();
+    loop.factorized = false;
+    for (std::size_t k = 0; k < unknowns.size(); ++k) values_.y[unknowns[k]] = loop.before[k];
+    report = iterate(loop, t, x, w);
+  }
+  if (report.status != SolveStatus::kConverged) return report;
+  for (std::size_t k = 0; k < unknowns.size(); ++k) loop.predicted[k] = values_.y[unknowns[k]];
+  loop.start.remember(t, loop.predicted.data());
   return report;
 }
 
@@ -178,7 +210,7 @@ bool LoopSolver::consistent(const Loop& loop, double t, const Vector& x, const V
   const double tolerance = 100.0 * std::max(options_.tolerance, kRoundOff);
   for (const Index input : loop.plan.inner_inputs) values_.gather(input, w);
   for (const Index port : loop.plan.outputs) {
-    values_.evaluate(port, t, x);
+    values_.evaluate(&port, 1, t, x);
     const CoupledSystem::Output& output = values_.system.outputs()[port];
     for (Index e = output.begin; e < output.begin + output.size; ++e)
       if (!(std::abs(values_.g[e] - values_.y[e]) <= tolerance * std::max(output.nominal, std::abs(values_.y[e])))) {
@@ -192,7 +224,7 @@ bool LoopSolver::consistent(const Loop& loop, double t, const Vector& x, const V
 void LoopSolver::evaluateInOrder(const LoopPlan& p, const std::vector<Index>& ports, double t, const Vector& x, const Vector& w) noexcept {
   for (const Index port : ports) {
     for (const Index input : p.inner_inputs) values_.gather(input, w);
-    values_.evaluate(port, t, x);
+    values_.evaluate(&port, 1, t, x);
     adopt(port);
   }
 }
@@ -206,7 +238,7 @@ SolveReport LoopSolver::solve(double t, const Vector& x, const Vector& w) noexce
   Loop& loop = current();
   evaluateInOrder(loop.plan, loop.plan.before, t, x, w);
   SolveReport report;
-  if (!loop.plan.unknowns.empty()) report = iterate(loop, t, x, w);
+  if (!loop.plan.unknowns.empty()) report = iterateFromPrediction(loop, t, x, w);
   for (const Index port : loop.plan.core) adopt(port);
   evaluateInOrder(loop.plan, loop.plan.after, t, x, w);
   const bool good = report.status == SolveStatus::kConverged && consistent(loop, t, x, w, report.entry);
@@ -230,6 +262,9 @@ void LoopSolver::appendTo(std::vector<double>& cache) const {
   for (const Loop* loop : {&pruned_, &full_}) {
     cache.push_back(loop->factorized);
     cache.insert(cache.end(), loop->matrix.begin(), loop->matrix.end());
+    const std::vector<double> secants = loop->secants.values();
+    cache.insert(cache.end(), secants.begin(), secants.end());
+    loop->start.appendTo(cache);
   }
 }
 
@@ -239,7 +274,11 @@ void LoopSolver::restore(std::vector<double>::const_iterator& value) {
     const bool factorized = *value++ != 0.0;
     std::copy_n(value, loop->matrix.size(), loop->matrix.begin());
     value += static_cast<std::ptrdiff_t>(loop->matrix.size());
-    loop->factorized = factorized && loop->lu.factorize(loop->matrix);
+    loop->factorized = factorized && factorize(*loop);
+    const auto secants = value;
+    value += static_cast<std::ptrdiff_t>(loop->secants.values().size());
+    loop->secants.restore({secants, value});
+    loop->start.restore(value);
   }
   markUnknowns();
 }

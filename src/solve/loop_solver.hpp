@@ -1,11 +1,13 @@
 #pragma once
 #include <vector>
 
-#include "broyden_memory.hpp"
+#include "explicit_inverse.hpp"
 #include "heerk_rotor/solve/algebraic_solver.hpp"
 #include "heerk_rotor/solve/evaluation_plan.hpp"
+#include "heerk_rotor/solve/secant_memory.hpp"
 #include "heerk_rotor/solve/sparse_lu.hpp"
 #include "port_values.hpp"
+#include "start_values.hpp"
 
 namespace heerk_rotor {
 
@@ -29,15 +31,20 @@ class LoopSolver {
  private:
   /// A plan with the numbers that solving it needs.
   struct Loop {
-    explicit Loop(const LoopPlan& p) : plan(p), lu(p.gradient), matrix(p.gradient.rows.size(), 0.0), nominal(p.unknowns.size(), 1.0), inverse_nominal(nominal),
-          step(p.unknowns.size(), 0.0), reference(p.unknowns.size(), 0.0), kept(p.unknowns.size(), 0.0), broyden(p.unknowns.size()) {}
+    explicit Loop(const LoopPlan& p) : plan(p), lu(p.gradient), inverse(p.gradient.size), matrix(p.gradient.rows.size(), 0.0), nominal(p.unknowns.size(), 1.0), inverse_nominal(nominal),
+          step(p.unknowns.size(), 0.0), taken(step), reference(step), kept(step), before(step), predicted(step), secants(p.gradient.size), start(p.gradient.size) {}
     LoopPlan plan;
+    std::vector<PortGroup> core_groups;    // of plan.core
     SparseLu lu;
+    ExplicitInverse inverse;               // of the same matrix, where it is small
     std::vector<double> matrix;            // I - dg/dy in units of the nominal magnitudes, in the order of plan.gradient.rows
     std::vector<double> nominal, inverse_nominal;  // magnitude of each unknown; makes pivots of different quantities comparable
     bool factorized = false;
-    std::vector<double> step, reference, kept;
-    BroydenMemory broyden;                 // of the present solve
+    std::vector<double> step, taken;       // residual, then correction, in units of the nominal magnitudes; the last one applied
+    std::vector<double> reference, kept;   // g and y before differences are taken
+    std::vector<double> before, predicted; // y when a solve begins, and the guess it begins with
+    SecantMemory secants;                  // how the Jacobian has changed since it was taken
+    StartValues start;
     Vector jacobian;                       // scratch for a model's own Jacobian
   };
 
@@ -49,8 +56,11 @@ class LoopSolver {
   bool residualIsRoundOff(const Loop& loop) const noexcept;
   bool refresh(Loop& loop, double t, const Vector& x, const Vector& w) noexcept;
   void applyModelJacobians(Loop& loop, double t, const Vector& x) noexcept;
-  double correction(Loop& loop, Index& worst) noexcept;
+  static bool factorize(Loop& loop) noexcept;
+  static void solveLinear(Loop& loop) noexcept;
+  double correction(Loop& loop, bool learn, Index& worst) noexcept;
   SolveReport iterate(Loop& loop, double t, const Vector& x, const Vector& w) noexcept;
+  SolveReport iterateFromPrediction(Loop& loop, double t, const Vector& x, const Vector& w) noexcept;
   bool consistent(const Loop& loop, double t, const Vector& x, const Vector& w, Index& worst) noexcept;
   void evaluateInOrder(const LoopPlan& plan, const std::vector<Index>& ports, double t, const Vector& x, const Vector& w) noexcept;
 

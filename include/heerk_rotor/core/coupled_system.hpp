@@ -100,7 +100,17 @@ class CoupledSystem {
   void fetch(Index input, const Vector& y, const Vector& w, Vector& u) const noexcept;
 
   /// Evaluates one output port into `result` (its entries only).
-  void evalOutput(Index output, double t, const Vector& x, const Vector& u, double* result) noexcept;
+  void evalOutput(Index output, double t, const Vector& x, const Vector& u, double* result) noexcept {
+    const Port& p = ports_[static_cast<std::size_t>(output)];
+    p.model->evalOutput(p.number, t, In(x.data() + p.x_begin, p.x_size), In(u.data() + p.u_begin, p.u_size), Out(result, p.size));
+  }
+
+  /// Evaluates several output ports of one subsystem; values of port outputs[k] begin at results[k]. At most kTogether.
+  static constexpr Index kTogether = 8;
+  void evalOutputs(const Index* outputs, Index count, double t, const Vector& x, const Vector& u, double* const* results) noexcept {
+    const Port& p = ports_[static_cast<std::size_t>(outputs[0])];
+    evalOutputs(outputs, count, t, In(x.data() + p.x_begin, p.x_size), u, results);
+  }
 
   /// remainder = f(t, x, u) - S x of all subsystems, or the complete f when `complete` is set.
   void evalRemainder(double t, const Vector& x, const Vector& u, bool complete, double* remainder) noexcept;
@@ -108,20 +118,53 @@ class CoupledSystem {
   /// Takes the narrow form of every model all of whose `needed` outputs (one flag per output) can be evaluated from it.
   void chooseNarrowForms(const std::vector<char>& needed);
 
-  /// evalOutput() of a needed output, and all remainders, in a stage: z (stageSize()), r (stageRemainderSize()). The latter is false where some model
+  /// evalOutput() and evalOutputs() of needed outputs, and all remainders, in a stage: z (stageSize()), r (stageRemainderSize()). The latter is false where some model
   /// has no narrow form with these inputs.
-  void evalStageOutput(Index output, double t, const Vector& z, const Vector& u, double* result) noexcept;
+  void evalStageOutput(Index output, double t, const Vector& z, const Vector& u, double* result) noexcept {
+    const Port& p = ports_[static_cast<std::size_t>(output)];
+    const In zs(z.data() + p.z_begin, p.z_size), us(u.data() + p.u_begin, p.u_size);
+    if (p.narrow) p.model->evalNarrowOutput(p.number, t, zs, us, Out(result, p.size));
+    else p.model->evalOutput(p.number, t, zs, us, Out(result, p.size));
+  }
+  void evalStageOutputs(const Index* outputs, Index count, double t, const Vector& z, const Vector& u, double* const* results) noexcept {
+    const Port& p = ports_[static_cast<std::size_t>(outputs[0])];
+    if (p.narrow) {
+      for (Index k = 0; k < count; ++k) evalStageOutput(outputs[k], t, z, u, results[k]);
+    } else {
+      evalOutputs(outputs, count, t, In(z.data() + p.z_begin, p.z_size), u, results);
+    }
+  }
   bool evalStageRemainder(double t, const Vector& z, const Vector& u, double* r) noexcept;
 
  private:
   friend class CouplingGraph;
+
+  /// What evaluating an output takes, in one place instead of three.
+  struct Port {
+    SubsystemModel* model;
+    Index number;                        // within the model
+    bool narrow;
+    Index x_begin, x_size, z_begin, z_size, u_begin, u_size, size;
+  };
+
+  /// The same of the right-hand side of a subsystem with states.
+  struct Rates {
+    SubsystemModel* model;
+    bool narrow, provides_remainder;
+    const StiffPart* stiff;              // nullptr: zero
+    Index x_begin, x_size, z_begin, z_size, r_begin, r_size, u_begin, u_size;
+  };
+
   void layOutStages();
+  void evalOutputs(const Index* outputs, Index count, double t, const In& x, const Vector& u, double* const* results) noexcept;
   const double* firstSource(const Input& input, const Vector& y, const Vector& w) const noexcept;
-  void evalRemainderOf(const Subsystem& s, double t, const In& x, const Vector& u, bool complete, double* remainder) noexcept;
+  static void evalRemainderOf(const Rates& of, double t, const In& x, const Vector& u, bool complete, double* remainder) noexcept;
 
   std::vector<Subsystem> subsystems_;
   std::vector<Output> outputs_;
   std::vector<Input> inputs_;
+  std::vector<Port> ports_;              // of outputs_
+  std::vector<Rates> rates_;
   std::vector<Signal> signals_;
   Vector declared_initial_;
   std::vector<std::pair<Index, double>> start_;

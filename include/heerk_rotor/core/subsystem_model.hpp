@@ -56,6 +56,13 @@ struct NarrowForm {
   Matrix B;  // (n x number of r)
 };
 
+/// Where an output port's values go.
+struct PortValue {
+  Index port;
+  double* y;
+  Index size;
+};
+
 /// One subsystem of the coupled index-1 DAE in state-space form (HEERK paper, eq. 1):
 ///   x' = f(t, x, u),  y = g(t, x, u).
 /// u holds all input ports one after the other in the order of inputs(); evaluating an output port may read only the
@@ -72,6 +79,9 @@ class SubsystemModel {
 
   /// y = the output port's values.
   virtual void evalOutput(Index port, double t, const In& x, const In& u, Out y) noexcept = 0;
+
+  /// Several output ports at one (t, x, u): for a model whose ports share work. Default: one after the other.
+  virtual void evalOutputs(const PortValue* values, Index count, double t, const In& x, const In& u) noexcept;
 
   /// The complete right-hand side f(t, x, u).
   virtual void evalDerivatives(double t, const In& x, const In& u, Out xdot) noexcept = 0;

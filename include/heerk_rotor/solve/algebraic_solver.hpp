@@ -67,7 +67,7 @@ class AlgebraicSolver {
   const Vector& y() const;
   const Vector& u() const;
   const SolverCounters& counters() const;
-  const std::vector<std::uint64_t>& outputEvaluations() const;  // per subsystem: calls of evalOutput
+  std::vector<std::uint64_t> outputEvaluations() const;  // per subsystem: calls of evalOutput
   const std::vector<LoopInfo>& loops() const;
 
   /// Everything the next solve depends on (start values, Jacobians), for bitwise equal continuation.
