@@ -46,6 +46,7 @@ class Timed final : public SubsystemModel {
   bool providesRemainder() const override { return model_->providesRemainder(); }
   std::vector<std::string> ignoredInitialValues() const override { return model_->ignoredInitialValues(); }
   void completeInitialState(const In& u, Out x) const override { model_->completeInitialState(u, x); }
+  bool holdState(bool held) noexcept override { return model_->holdState(held); }
   bool outputJacobian(Index port, double t, const In& x, const In& u, Eigen::Map<Matrix> jacobian) noexcept override { return model_->outputJacobian(port, t, x, u, jacobian); }
 
   void evalOutput(Index port, double t, const In& x, const In& u, Out y) noexcept override {

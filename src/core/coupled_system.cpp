@@ -103,29 +103,24 @@ bool CoupledSystem::gather(Index number, const Vector& y, const Vector& w, Vecto
   return changed;
 }
 
-void CoupledSystem::evalOutputs(const Index* outputs, Index count, double t, const In& x, const Vector& u, double* const* results) noexcept {
+void CoupledSystem::evalTogether(const std::vector<OutputCall>& calls, const Index* outputs, Index count, double t, const Vector& x, const Vector& u, double* const* results) noexcept {
+  const OutputCall& first = calls[static_cast<std::size_t>(outputs[0])];
+  if (first.narrow) {
+    for (Index k = 0; k < count; ++k) calls[static_cast<std::size_t>(outputs[k])](t, x.data(), u.data(), results[k]);
+    return;
+  }
   PortValue values[kTogether];
   for (Index k = 0; k < count; ++k) {
-    const Port& p = ports_[static_cast<std::size_t>(outputs[k])];
-    values[k] = {p.number, results[k], p.size};
+    const OutputCall& call = calls[static_cast<std::size_t>(outputs[k])];
+    values[k] = {call.port, results[k], call.size};
   }
-  const Port& p = ports_[static_cast<std::size_t>(outputs[0])];
-  p.model->evalOutputs(values, count, t, x, In(u.data() + p.u_begin, p.u_size));
+  first.model->evalOutputs(values, count, t, In(x.data() + first.x_begin, first.x_size), In(u.data() + first.u_begin, first.u_size));
 }
 
-void CoupledSystem::evalRemainderOf(const Rates& of, double t, const In& x, const Vector& u, bool complete, double* remainder) noexcept {
-  const In us(u.data() + of.u_begin, of.u_size);
-  const Out out(remainder, of.x_size);
-  if (!complete && of.provides_remainder) {
-    of.model->evalRemainder(t, x, us, out);
-  } else {
-    of.model->evalDerivatives(t, x, us, out);
-    if (!complete && of.stiff) subtractStiff(*of.stiff, x, In(out.data(), out.size()), out);
-  }
-}
+void CoupledSystem::RatesCall::takeOffStiff(const In& x, Out remainder) const noexcept { subtractStiff(*stiff, x, In(remainder.data(), remainder.size()), remainder); }
 
 void CoupledSystem::evalRemainder(double t, const Vector& x, const Vector& u, bool complete, double* remainder) noexcept {
-  for (const Rates& of : rates_) evalRemainderOf(of, t, In(x.data() + of.x_begin, of.x_size), u, complete, remainder + of.x_begin);
+  for (const RatesCall& call : rates_calls_) call(t, x.data() + call.x_begin, u.data(), complete, remainder + call.x_begin);
 }
 
 void CoupledSystem::layOutStages() {
@@ -138,17 +133,18 @@ void CoupledSystem::layOutStages() {
     r_size_ += s.r_size = s.narrow ? s.narrow->B.cols() : s.x_size;
     has_narrow_forms_ = has_narrow_forms_ || s.narrow;
   }
-  ports_.clear();
+  calls_.clear();
+  stage_calls_.clear();
   for (const Output& o : outputs_) {
     const Subsystem& s = subsystems_[o.subsystem];
-    ports_.push_back({s.model.get(), o.port, s.narrow != nullptr, s.x_begin, s.x_size, s.z_begin, s.z_size, s.u_begin, s.u_size, o.size});
+    calls_.push_back({s.model.get(), o.port, false, s.x_begin, s.x_size, s.u_begin, s.u_size, o.size});
+    stage_calls_.push_back({s.model.get(), o.port, s.narrow != nullptr, s.z_begin, s.z_size, s.u_begin, s.u_size, o.size});
   }
-  rates_.clear();
-  for (const Subsystem& s : subsystems_) {
-    if (s.x_size == 0) continue;
-    rates_.push_back({s.model.get(), s.narrow != nullptr, s.provides_remainder, std::holds_alternative<ZeroStiff>(s.stiff) ? nullptr : &s.stiff, s.x_begin, s.x_size, s.z_begin, s.z_size,
-                      s.r_begin, s.r_size, s.u_begin, s.u_size});
-  }
+  rates_calls_.clear();
+  for (const Subsystem& s : subsystems_)
+    if (s.x_size > 0)
+      rates_calls_.push_back({s.model.get(), s.narrow != nullptr, s.provides_remainder, std::holds_alternative<ZeroStiff>(s.stiff) ? nullptr : &s.stiff, s.x_begin, s.x_size, s.z_begin, s.z_size,
+                              s.r_begin, s.r_size, s.u_begin, s.u_size});
 }
 
 void CoupledSystem::chooseNarrowForms(const std::vector<char>& needed) {
@@ -162,10 +158,9 @@ void CoupledSystem::chooseNarrowForms(const std::vector<char>& needed) {
 }
 
 bool CoupledSystem::evalStageRemainder(double t, const Vector& z, const Vector& u, double* r) noexcept {
-  for (const Rates& of : rates_) {
-    const In zs(z.data() + of.z_begin, of.z_size);
-    if (!of.narrow) evalRemainderOf(of, t, zs, u, false, r + of.r_begin);
-    else if (!of.model->evalNarrowRemainder(t, zs, In(u.data() + of.u_begin, of.u_size), Out(r + of.r_begin, of.r_size))) return false;
+  for (const RatesCall& call : rates_calls_) {
+    if (!call.narrow) call(t, z.data() + call.z_begin, u.data(), false, r + call.r_begin);
+    else if (!call.model->evalNarrowRemainder(t, In(z.data() + call.z_begin, call.z_size), In(u.data() + call.u_begin, call.u_size), Out(r + call.r_begin, call.r_size))) return false;
   }
   return true;
 }

@@ -8,6 +8,8 @@ void SubsystemModel::evalOutputs(const PortValue* values, Index count, double t,
   for (Index k = 0; k < count; ++k) evalOutput(values[k].port, t, x, u, Out(values[k].y, values[k].size));
 }
 
+bool SubsystemModel::holdState(bool) noexcept { return false; }
+
 void SubsystemModel::evalRemainder(double t, const In& x, const In& u, Out remainder) noexcept {
   evalDerivatives(t, x, u, remainder);  // right for S = 0; a model with providesRemainder() overrides this
 }

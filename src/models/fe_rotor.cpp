@@ -129,7 +129,8 @@ class FeRotor : public SubsystemModel {
   }
 
   void evalOutputs(const PortValue* values, Index count, double, const In& x, const In& u) noexcept override {
-    dynamics_.deform(x.data());
+    if (!known_) dynamics_.deform(x.data());
+    known_ = held_;
     bool accelerated = false;
     for (Index k = 0; k < count; ++k) {
       const Index port = values[k].port;
@@ -146,6 +147,12 @@ class FeRotor : public SubsystemModel {
         case kMomentum: case kAngularMomentum: case kEnergy: case kDissipation: balance(port, u, y); break;
       }
     }
+  }
+
+  bool holdState(bool held) noexcept override {
+    held_ = held;
+    known_ = false;
+    return true;
   }
 
   bool providesRemainder() const override { return true; }
@@ -368,6 +375,7 @@ class FeRotor : public SubsystemModel {
     y << sum(in_hub.x), sum(in_hub.y), sum(in_hub.z);
   }
 
+  bool held_ = false, known_ = false;   // evaluations are all at one x, which has been looked at
   FeRotorParameters p_;
   int blades_;
   BladeDynamics<L> dynamics_;

@@ -18,17 +18,21 @@ struct AlgebraicSolver::Implementation {
 
   /// One thing to do in a solve. An input is taken over before anything reads it in this solve, so nobody asks whether it changed.
   struct Action {
-    enum class Kind { kCopy, kFetch, kEvaluate, kSolveLoop };
+    enum class Kind { kCopy1, kCopy2, kCopy3, kCopy4, kCopy, kFetch, kEvaluate, kEvaluateTogether, kSolveLoop };
     Kind kind;
-    Index number;                 // kFetch: input; kSolveLoop: loop; kEvaluate: first of `ports` and `results`
-    Index size = 0;               // kCopy: numbers; kEvaluate: ports, all of one subsystem
-    const double* from = nullptr; // kCopy: the one output that feeds an input
-    double* to = nullptr;
+    Index number;                 // kFetch: input; kSolveLoop: loop; kEvaluate...: first of `ports` and `results`
+    Index size = 0;               // of a copy; kEvaluateTogether: ports, all of one subsystem
+    const double* from = nullptr; // of a copy: the one output that feeds an input
+    double* to = nullptr;         // of a copy; kEvaluate: the port's values
+    CoupledSystem::OutputCall call = {};   // kEvaluate
   };
+
+  static Action copy(const double* from, Index size, double* to) { return {size <= 4 ? static_cast<Action::Kind>(static_cast<int>(Action::Kind::kCopy1) + size - 1) : Action::Kind::kCopy, 0, size, from, to}; }
 
   PortValues values;
   std::vector<LoopSolver> loops;
-  std::vector<Action> actions, observed_actions;   // what f needs, and what only observers need
+  std::vector<Action> actions, stage_actions;      // what f needs, from x and from a stage's z
+  std::vector<Action> observed_actions;            // what only observers need
   std::vector<Index> ports;                        // of kEvaluate
   std::vector<double*> results;                    // where their values go
   std::vector<LoopInfo> infos;
@@ -37,7 +41,7 @@ struct AlgebraicSolver::Implementation {
   Action take(Index number) {
     const CoupledSystem::Input& input = values.system.inputs()[number];
     if (input.source_begin.size() != 1) return {Action::Kind::kFetch, number};
-    return {Action::Kind::kCopy, number, input.size, values.y.data() + input.source_begin[0], values.u.data() + input.begin};
+    return copy(values.y.data() + input.source_begin[0], input.size, values.u.data() + input.begin);
   }
 
   /// The input that alone reads a port outside loops, with no other source: -1 if there is none such.
@@ -52,7 +56,9 @@ struct AlgebraicSolver::Implementation {
     return readers == 1 ? reader : -1;
   }
 
-  std::vector<Action> actionsOf(const std::vector<EvaluationPlan::Item>& items, const std::vector<Index>& last_inputs) {
+  enum class For { kF, kStage, kObservers };
+
+  std::vector<Action> actionsOf(const std::vector<EvaluationPlan::Item>& items, const std::vector<Index>& last_inputs, For whom) {
     const auto& outputs = values.system.outputs();
     std::vector<Action> list;
     std::vector<char> written(values.system.inputs().size(), 0);  // inputs into which the port that feeds them writes
@@ -82,16 +88,18 @@ struct AlgebraicSolver::Implementation {
       for (const Index input : item.inputs) takeOver(input);
       // A long port that a single input reads goes there at once; y gets it only when somebody observes.
       double* result = values.y.data() + output.begin;
-      if (const Index reader = onlyReader(item.output); output.size > kLong && reader >= 0) {
+      if (const Index reader = onlyReader(item.output); whom != For::kObservers && output.size > kLong && reader >= 0) {
         const CoupledSystem::Input& input = values.system.inputs()[reader];
         result = values.u.data() + input.begin;
         written[reader] = 1;
-        observed_actions.push_back({Action::Kind::kCopy, reader, output.size, result, values.y.data() + output.begin});
+        if (whom == For::kF) observed_actions.push_back(copy(result, output.size, values.y.data() + output.begin));
       }
       ports.push_back(item.output);
       results.push_back(result);
       group.push_back(item.output);
-      ++evaluate.size;
+      if (++evaluate.size > 1) evaluate.kind = Action::Kind::kEvaluateTogether;
+      evaluate.to = result;
+      evaluate.call = values.system.outputCall(item.output, whom == For::kStage);
       list.push_back(evaluate);
     }
     for (const Index input : last_inputs) takeOver(input);
@@ -102,9 +110,18 @@ struct AlgebraicSolver::Implementation {
     SolveReport worst;
     for (const Action& action : list) {
       switch (action.kind) {
+        // Number by number, as they were written just before: a vector load would wait until all of them have left the store buffer.
+        case Action::Kind::kCopy4: action.to[3] = action.from[3]; [[fallthrough]];
+        case Action::Kind::kCopy3: action.to[2] = action.from[2]; [[fallthrough]];
+        case Action::Kind::kCopy2: action.to[1] = action.from[1]; [[fallthrough]];
+        case Action::Kind::kCopy1: action.to[0] = action.from[0]; break;
         case Action::Kind::kCopy: copyShort(action.from, action.size, action.to); break;
         case Action::Kind::kFetch: values.system.fetch(action.number, values.y, w, values.u); break;
-        case Action::Kind::kEvaluate: values.evaluateInto(ports.data() + action.number, action.size, t, x, results.data() + action.number); break;
+        case Action::Kind::kEvaluate:
+          ++values.evaluations[static_cast<std::size_t>(ports[static_cast<std::size_t>(action.number)])];
+          action.call(t, x.data(), values.u.data(), action.to);
+          break;
+        case Action::Kind::kEvaluateTogether: values.evaluateInto(ports.data() + action.number, action.size, t, x, results.data() + action.number); break;
         case Action::Kind::kSolveLoop: {
           const SolveReport report = loops[static_cast<std::size_t>(action.number)].solve(t, x, w);
           if (report.status != SolveStatus::kConverged) return report;
@@ -124,7 +141,9 @@ struct AlgebraicSolver::Implementation {
     ++counters.solves;
     values.in_stage = in_stage;
     values.beginSolve();
-    return run(actions, t, x, w);
+    const SolveReport report = run(in_stage ? stage_actions : actions, t, x, w);
+    values.endSolve();
+    return report;
   }
 };
 
@@ -134,8 +153,9 @@ AlgebraicSolver::AlgebraicSolver(CoupledSystem& system, const SolverOptions& opt
   const EvaluationPlan plan = planEvaluation(system, t, x, w);
   system.chooseNarrowForms(neededInStages(plan, system));
   for (std::size_t l = 0; l < plan.pruned.size(); ++l) s.loops.emplace_back(s.values, options, s.counters, plan.pruned[l], plan.full[l]);
-  s.actions = s.actionsOf(plan.stage, plan.last_inputs);
-  const auto observed = s.actionsOf(plan.observed, {});
+  s.actions = s.actionsOf(plan.stage, plan.last_inputs, Implementation::For::kF);
+  s.stage_actions = s.actionsOf(plan.stage, plan.last_inputs, Implementation::For::kStage);
+  const auto observed = s.actionsOf(plan.observed, {}, Implementation::For::kObservers);
   s.observed_actions.insert(s.observed_actions.end(), observed.begin(), observed.end());
   for (std::size_t input = 0; input < system.inputs().size(); ++input)  // constants and commands, before anything reads them
     s.values.gather(static_cast<Index>(input), w);

@@ -30,7 +30,8 @@ class ExplicitInverse {
   void apply(double* b) const noexcept {
     alignas(64) double result[kLargest];
     for (Index row = 0; row < pitch_; row += 2 * kLanes) row + kLanes < pitch_ ? rows<2 * kLanes>(row, b, result) : rows<kLanes>(row, b, result);
-    std::copy_n(result, size_, b);
+#pragma GCC unroll 1
+    for (Index i = 0; i < size_; ++i) b[i] = result[i];
   }
 
  private:

@@ -41,7 +41,7 @@ void LoopSolver::adopt(Index port) noexcept {
 void LoopSolver::residual(Loop& loop, double t, const Vector& x, const Vector& w) noexcept {
   ++counters_.residual_evaluations;
   for (const Index input : loop.plan.core_inputs) values_.gather(input, w);
-  for (const PortGroup& group : loop.core_groups) values_.evaluate(loop.plan.core.data() + group.begin, static_cast<Index>(group.end - group.begin), t, x);
+  for (const PortGroup& group : loop.core_groups) values_.evaluate(loop.plan.core.data() + group.begin, group.size, t, x);
   for (std::size_t k = 0; k < loop.plan.unknowns.size(); ++k) {
     const Index e = loop.plan.unknowns[k];
     loop.step[k] = (values_.g[e] - values_.y[e]) * loop.inverse_nominal[k];

@@ -99,18 +99,29 @@ class CoupledSystem {
   /// The same without asking for changes.
   void fetch(Index input, const Vector& y, const Vector& w, Vector& u) const noexcept;
 
+  /// What evaluating an output port takes, in one place.
+  struct OutputCall {
+    SubsystemModel* model;
+    Index port;                          // within the model
+    bool narrow;                         // the state is given as z of the narrow form
+    Index x_begin, x_size, u_begin, u_size, size;
+
+    /// x (or z), u: global; result: the port's entries only.
+    void operator()(double t, const double* x, const double* u, double* result) const noexcept {
+      const In xs(x + x_begin, x_size), us(u + u_begin, u_size);
+      if (narrow) model->evalNarrowOutput(port, t, xs, us, Out(result, size));
+      else model->evalOutput(port, t, xs, us, Out(result, size));
+    }
+  };
+  /// in_stage: with z (stageSize()) instead of x, see chooseNarrowForms().
+  const OutputCall& outputCall(Index output, bool in_stage) const { return (in_stage ? stage_calls_ : calls_)[static_cast<std::size_t>(output)]; }
+
   /// Evaluates one output port into `result` (its entries only).
-  void evalOutput(Index output, double t, const Vector& x, const Vector& u, double* result) noexcept {
-    const Port& p = ports_[static_cast<std::size_t>(output)];
-    p.model->evalOutput(p.number, t, In(x.data() + p.x_begin, p.x_size), In(u.data() + p.u_begin, p.u_size), Out(result, p.size));
-  }
+  void evalOutput(Index output, double t, const Vector& x, const Vector& u, double* result) noexcept { calls_[static_cast<std::size_t>(output)](t, x.data(), u.data(), result); }
 
   /// Evaluates several output ports of one subsystem; values of port outputs[k] begin at results[k]. At most kTogether.
   static constexpr Index kTogether = 8;
-  void evalOutputs(const Index* outputs, Index count, double t, const Vector& x, const Vector& u, double* const* results) noexcept {
-    const Port& p = ports_[static_cast<std::size_t>(outputs[0])];
-    evalOutputs(outputs, count, t, In(x.data() + p.x_begin, p.x_size), u, results);
-  }
+  void evalOutputs(const Index* outputs, Index count, double t, const Vector& x, const Vector& u, double* const* results) noexcept { evalTogether(calls_, outputs, count, t, x, u, results); }
 
   /// remainder = f(t, x, u) - S x of all subsystems, or the complete f when `complete` is set.
   void evalRemainder(double t, const Vector& x, const Vector& u, bool complete, double* remainder) noexcept;
@@ -120,51 +131,41 @@ class CoupledSystem {
 
   /// evalOutput() and evalOutputs() of needed outputs, and all remainders, in a stage: z (stageSize()), r (stageRemainderSize()). The latter is false where some model
   /// has no narrow form with these inputs.
-  void evalStageOutput(Index output, double t, const Vector& z, const Vector& u, double* result) noexcept {
-    const Port& p = ports_[static_cast<std::size_t>(output)];
-    const In zs(z.data() + p.z_begin, p.z_size), us(u.data() + p.u_begin, p.u_size);
-    if (p.narrow) p.model->evalNarrowOutput(p.number, t, zs, us, Out(result, p.size));
-    else p.model->evalOutput(p.number, t, zs, us, Out(result, p.size));
-  }
+  void evalStageOutput(Index output, double t, const Vector& z, const Vector& u, double* result) noexcept { stage_calls_[static_cast<std::size_t>(output)](t, z.data(), u.data(), result); }
   void evalStageOutputs(const Index* outputs, Index count, double t, const Vector& z, const Vector& u, double* const* results) noexcept {
-    const Port& p = ports_[static_cast<std::size_t>(outputs[0])];
-    if (p.narrow) {
-      for (Index k = 0; k < count; ++k) evalStageOutput(outputs[k], t, z, u, results[k]);
-    } else {
-      evalOutputs(outputs, count, t, In(z.data() + p.z_begin, p.z_size), u, results);
-    }
+    evalTogether(stage_calls_, outputs, count, t, z, u, results);
   }
   bool evalStageRemainder(double t, const Vector& z, const Vector& u, double* r) noexcept;
 
  private:
   friend class CouplingGraph;
 
-  /// What evaluating an output takes, in one place instead of three.
-  struct Port {
-    SubsystemModel* model;
-    Index number;                        // within the model
-    bool narrow;
-    Index x_begin, x_size, z_begin, z_size, u_begin, u_size, size;
-  };
-
-  /// The same of the right-hand side of a subsystem with states.
-  struct Rates {
+  /// What evaluating the right-hand side of a subsystem with states takes.
+  struct RatesCall {
     SubsystemModel* model;
     bool narrow, provides_remainder;
     const StiffPart* stiff;              // nullptr: zero
     Index x_begin, x_size, z_begin, z_size, r_begin, r_size, u_begin, u_size;
+
+    void operator()(double t, const double* x, const double* u, bool complete, double* remainder) const noexcept {
+      const In xs(x, x_size), us(u + u_begin, u_size);
+      const Out out(remainder, x_size);
+      if (provides_remainder && !complete) return model->evalRemainder(t, xs, us, out);
+      model->evalDerivatives(t, xs, us, out);
+      if (stiff && !complete) takeOffStiff(xs, out);
+    }
+    void takeOffStiff(const In& x, Out remainder) const noexcept;
   };
 
   void layOutStages();
-  void evalOutputs(const Index* outputs, Index count, double t, const In& x, const Vector& u, double* const* results) noexcept;
+  static void evalTogether(const std::vector<OutputCall>& calls, const Index* outputs, Index count, double t, const Vector& x, const Vector& u, double* const* results) noexcept;
   const double* firstSource(const Input& input, const Vector& y, const Vector& w) const noexcept;
-  static void evalRemainderOf(const Rates& of, double t, const In& x, const Vector& u, bool complete, double* remainder) noexcept;
 
   std::vector<Subsystem> subsystems_;
   std::vector<Output> outputs_;
   std::vector<Input> inputs_;
-  std::vector<Port> ports_;              // of outputs_
-  std::vector<Rates> rates_;
+  std::vector<OutputCall> calls_, stage_calls_;  // of outputs_
+  std::vector<RatesCall> rates_calls_;
   std::vector<Signal> signals_;
   Vector declared_initial_;
   std::vector<std::pair<Index, double>> start_;

@@ -83,6 +83,10 @@ class SubsystemModel {
   /// Several output ports at one (t, x, u): for a model whose ports share work. Default: one after the other.
   virtual void evalOutputs(const PortValue* values, Index count, double t, const In& x, const In& u) noexcept;
 
+  /// Says that from now on, until the contrary is said, all evaluations are at one x: a model that keeps what follows from the state alone need look
+  /// only once whether it has changed. Returns whether the model makes use of it.
+  virtual bool holdState(bool held) noexcept;
+
   /// The complete right-hand side f(t, x, u).
   virtual void evalDerivatives(double t, const In& x, const In& u, Out xdot) noexcept = 0;
 

@@ -33,10 +33,8 @@ class SecantMemory {
   double* b(Index k) noexcept { return b_.data() + k * size_; }
   const double* a(Index k) const noexcept { return a_.data() + k * size_; }
   const double* b(Index k) const noexcept { return b_.data() + k * size_; }
-  double dot(const double* left, const double* right) const noexcept;
-  void add(double factor, const double* from, double* to) const noexcept;
 
-  Index size_;
+  Index size_, pairs_;               // at most as many pairs as unknowns
   Vector a_, b_;                     // [pair][unknown]
   Index count_ = 0;
 };
