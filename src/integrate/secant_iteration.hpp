@@ -25,12 +25,15 @@ class SecantIteration {
       if (!residual(a, raw_)) return End::kNoResidual;
       left_ = raw_;
       memory_.improve(left_.data());
-      if (taken && correction > kWorthLearning) memory_.learn(step_.data(), left_.data());
-      step_ = left_;
-      taken = true;
       // Rounding in f, which loops of the system may amplify, can keep corrections above a very small tolerance: there they stop shrinking.
       const double before = correction;
-      correction = size(step_);
+      correction = size(left_);
+      if (taken && correction > tolerance_ && before > kWorthLearning) {  // nothing to learn from what has converged
+        memory_.learn(step_.data(), raw_.data(), left_.data());
+        correction = size(left_);
+      }
+      step_ = left_;
+      taken = true;
       if (correction > before && before > kNoise * tolerance_ && !forgotten) {  // misled by what earlier steps taught: once, on from here without it
         memory_.clear();
         step_ = raw_;

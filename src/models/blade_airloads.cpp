@@ -133,18 +133,26 @@ const BladeAirloads::Results& BladeAirloads::resultsAt(const double* x, const do
   return results_;
 }
 
-void BladeAirloads::evalOutput(Index port, double, const In& x, const In& u, Out y) noexcept {
-  if (port == kHubFlow) {
-    const double scale = 1.0 / (p_.rotor_speed * p_.sections.radius);
-    for (Index i = 0; i < 3; ++i) y[i] = scale * (u[in_.mount + i] - u[in_.wind + i]);
-    return;
+void BladeAirloads::evalOutput(Index port, double t, const In& x, const In& u, Out y) noexcept {
+  const PortValue value{port, y.data(), y.size()};
+  evalOutputs(&value, 1, t, x, u);
+}
+
+void BladeAirloads::evalOutputs(const PortValue* values, Index count, double, const In& x, const In& u) noexcept {
+  const Results* results = nullptr;  // of all ports, looked for once
+  for (const PortValue* value = values; value != values + count; ++value) {
+    if (value->port == kHubFlow) {
+      const double scale = 1.0 / (p_.rotor_speed * p_.sections.radius);
+      for (Index i = 0; i < 3; ++i) value->y[i] = scale * (u[in_.mount + i] - u[in_.wind + i]);
+      continue;
+    }
+    if (!results) results = &resultsAt(x.data(), u.data());
+    const double* from = results->loads.data();
+    if (value->port == kRotorLoads) from = results->rotor_loads;
+    if (value->port == kAngleOfAttack) from = results->alpha.data();
+    if (value->port == kMach) from = results->mach.data();
+    std::copy_n(from, value->size, value->y);
   }
-  const Results& results = resultsAt(x.data(), u.data());
-  const double* values = results.loads.data();
-  if (port == kRotorLoads) values = results.rotor_loads;
-  if (port == kAngleOfAttack) values = results.alpha.data();
-  if (port == kMach) values = results.mach.data();
-  std::copy(values, values + y.size(), y.data());
 }
 
 void BladeAirloads::evalDerivatives(double, const In& x, const In& u, Out xdot) noexcept {

@@ -130,12 +130,21 @@ void LoopSolver::solveLinear(Loop& loop) noexcept {
   else loop.lu.solve(loop.step.data());
 }
 
-/// loop.step (a residual) becomes the Newton correction. Its maximum over max(nominal, |y|), infinite when not finite,
-/// estimates the error of the unknowns; `worst` is the entry that has it. `learn`: from what loop.taken has left.
+/// loop.step (a residual) becomes the Newton correction. The result, which estimates the error of the unknowns, is its maximum over max(nominal, |y|),
+/// infinite when not finite; `worst` is the entry that has it. `learn`: from what loop.taken has left, should that be too much.
 double LoopSolver::correction(Loop& loop, bool learn, Index& worst) noexcept {
   solveLinear(loop);
+  loop.raw = loop.step;
   loop.secants.improve(loop.step.data());
-  if (learn) loop.secants.learn(loop.taken.data(), loop.step.data());
+  double norm = relativeSize(loop, worst);
+  if (learn && norm > options_.tolerance) {
+    loop.secants.learn(loop.taken.data(), loop.raw.data(), loop.step.data());
+    norm = relativeSize(loop, worst);
+  }
+  return norm;
+}
+
+double LoopSolver::relativeSize(const Loop& loop, Index& worst) const noexcept {
   double norm = -1.0;
   for (std::size_t k = 0; k < loop.step.size(); ++k) {
     const Index e = loop.plan.unknowns[k];

@@ -32,7 +32,7 @@ class LoopSolver {
   /// A plan with the numbers that solving it needs.
   struct Loop {
     explicit Loop(const LoopPlan& p) : plan(p), lu(p.gradient), inverse(p.gradient.size), matrix(p.gradient.rows.size(), 0.0), nominal(p.unknowns.size(), 1.0), inverse_nominal(nominal),
-          step(p.unknowns.size(), 0.0), taken(step), reference(step), kept(step), before(step), predicted(step), secants(p.gradient.size), start(p.gradient.size) {}
+          step(p.unknowns.size(), 0.0), raw(step), taken(step), reference(step), kept(step), before(step), predicted(step), secants(p.gradient.size), start(p.gradient.size) {}
     LoopPlan plan;
     std::vector<PortGroup> core_groups;    // of plan.core
     SparseLu lu;
@@ -40,7 +40,7 @@ class LoopSolver {
     std::vector<double> matrix;            // I - dg/dy in units of the nominal magnitudes, in the order of plan.gradient.rows
     std::vector<double> nominal, inverse_nominal;  // magnitude of each unknown; makes pivots of different quantities comparable
     bool factorized = false;
-    std::vector<double> step, taken;       // residual, then correction, in units of the nominal magnitudes; the last one applied
+    std::vector<double> step, raw, taken;  // residual, then correction, in units of the nominal magnitudes; without secants; the last one applied
     std::vector<double> reference, kept;   // g and y before differences are taken
     std::vector<double> before, predicted; // y when a solve begins, and the guess it begins with
     SecantMemory secants;                  // how the Jacobian has changed since it was taken
@@ -59,6 +59,7 @@ class LoopSolver {
   static bool factorize(Loop& loop) noexcept;
   static void solveLinear(Loop& loop) noexcept;
   double correction(Loop& loop, bool learn, Index& worst) noexcept;
+  double relativeSize(const Loop& loop, Index& worst) const noexcept;
   SolveReport iterate(Loop& loop, double t, const Vector& x, const Vector& w) noexcept;
   SolveReport iterateFromPrediction(Loop& loop, double t, const Vector& x, const Vector& w) noexcept;
   bool consistent(const Loop& loop, double t, const Vector& x, const Vector& w, Index& worst) noexcept;

@@ -11,6 +11,7 @@ namespace {
 using Lanes = Eigen::Array<double, 4, 1>;
 using Load = Eigen::Map<const Lanes>;
 constexpr Index kLanes = Lanes::RowsAtCompileTime;
+constexpr double kServes = 0.1;           // a full memory is good enough while corrections shrink by this
 constexpr double kNearlySingular = 1e-3;  // of what a new pair divides by, in parts of |s|^2
 
 inline double dot(const double* left, const double* right, Index size) noexcept {
@@ -40,10 +41,15 @@ void SecantMemory::improve(double* residual) const noexcept {
   for (Index k = 0; k < count_; ++k) add(share[k], a(k), residual, size_);
 }
 
-void SecantMemory::learn(const double* s, double* left) noexcept {
+void SecantMemory::learn(const double* s, const double* r_new, double* left) noexcept {
   const double square = dot(s, s, size_), along = dot(s, left, size_), denominator = square - along;
   if (!(std::abs(denominator) > kNearlySingular * square)) return;  // also refuses what is not finite
-  if (count_ == pairs_) count_ = 0;
+  if (count_ == pairs_) {
+    if (dot(left, left, size_) <= kServes * kServes * square) return;
+    clear();
+    std::copy_n(r_new, size_, left);
+    return;
+  }
   double* const b_new = b(count_);
   std::copy_n(s, size_, b_new);
   for (Index k = 0; k < count_; ++k) add(dot(a(k), s, size_), b(k), b_new, size_);

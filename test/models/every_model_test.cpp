@@ -1,5 +1,6 @@
 // What every registered model must keep, whatever it models. A new type is tested here by being registered; one that has
 // required parameters adds its minimal section to minimalParameters().
+#include <algorithm>
 #include <random>
 
 #include "heerk_rotor/models/registry.hpp"
@@ -276,6 +277,27 @@ TEST_P(EveryModel, evaluatesWithoutTouchingTheHeap) {
     calls = heap.count();
   }
   EXPECT_EQ(calls, 0u);
+}
+
+TEST_P(EveryModel, evaluatesPortsTogetherAsOneByOne) {
+  Vector x, u, other_x, other_u;
+  for (const bool held : {false, true}) {
+    tested.randomPoint(random, other_x, other_u);
+    if (!tested.outputs.empty()) tested.output(0, 0.2, other_x, other_u);
+    tested.randomPoint(random, x, u);
+    tested.model->holdState(held);
+    std::vector<Vector> together;
+    std::vector<PortValue> values;
+    for (const OutputPort& port : tested.outputs) together.push_back(Vector::Constant(port.size, -1.0));
+    for (std::size_t p = 0; p < tested.outputs.size(); ++p) values.push_back({static_cast<Index>(p), together[p].data(), together[p].size()});
+    std::reverse(values.begin(), values.end());  // in any order
+    tested.model->evalOutputs(values.data(), static_cast<Index>(values.size()), 0.4, in(x), in(u));
+    // At the state that is held, but with other inputs.
+    if (held && !tested.outputs.empty()) tested.model->evalOutputs(values.data(), 1, 0.4, in(x), in(other_u));
+    if (held) tested.model->evalOutputs(values.data(), static_cast<Index>(values.size()), 0.4, in(x), in(u));
+    tested.model->holdState(false);
+    for (std::size_t p = 0; p < tested.outputs.size(); ++p) EXPECT_EQ(together[p], tested.output(p, 0.4, x, u)) << tested.outputs[p].name;
+  }
 }
 
 TEST_P(EveryModel, remembersNothing) {

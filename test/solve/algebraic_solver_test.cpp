@@ -1,7 +1,11 @@
 #include "heerk_rotor/solve/algebraic_solver.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "function_model.hpp"
@@ -197,6 +201,130 @@ TEST(AlgebraicSolver, whatOnlyOutputsReadIsEvaluatedWhenTheyAre) {
     EXPECT_EQ(solver.outputEvaluations()[0] - before[0], 1u);
     EXPECT_EQ(solver.y()[1], 6.0);
   }
+}
+
+/// y_i = q(t) + sum_j A_ij y_j with q_i = (1 + i) (1 + 0.4 t - 0.3 t^2), A small and without structure; gains of y_0 grow with x.
+struct LinearLoop {
+  explicit LinearLoop(Index n) : A(n, n) {
+    for (Index i = 0; i < n; ++i)
+      for (Index j = 0; j < n; ++j) A(i, j) = 0.4 / static_cast<double>(n) * std::sin(3.0 * static_cast<double>(i) + 7.0 * static_cast<double>(j) + 1.0);
+  }
+  Matrix gains(double x) const {
+    Matrix G = A;
+    G.row(0) *= 1.0 + x;
+    return G;
+  }
+  static double drive(double t) { return 1.0 + 0.4 * t - 0.3 * t * t; }
+  Vector solution(double t, double x) const {
+    const Index n = A.rows();
+    return (Matrix::Identity(n, n) - gains(x)).partialPivLu().solve(Vector(Vector::LinSpaced(n, 1.0, static_cast<double>(n)) * drive(t)));
+  }
+  CoupledSystem system() const {
+    const Index n = A.rows();
+    CouplingGraph graph;
+    graph.add("loop", FunctionModel().state("x", 0.0).input("in", n).output("out", n, {"in"},
+        [*this](double t, const In& x, const In& u, Out y) {
+          y = gains(x[0]) * u;
+          for (Index i = 0; i < y.size(); ++i) y[i] += static_cast<double>(1 + i) * drive(t);
+        })
+        .derivatives([](double, const In&, const In&, Out xdot) { xdot[0] = 0.0; }).make());
+    graph.connect("loop.out", "loop.in");
+    return std::move(graph).build();
+  }
+  Matrix A;
+};
+
+TEST(AlgebraicSolver, solvesLoopsOfEverySize) {  // small ones with an explicit inverse, large ones by their factors
+  for (const Index n : {1, 2, 3, 4, 5, 8, 9, 12, 17, 31, 32, 33, 40}) {
+    const LinearLoop loop(n);
+    CoupledSystem system = loop.system();
+    Vector x = system.initialState();
+    AlgebraicSolver solver(system, tight(), 0.0, x, kNone);
+    ASSERT_EQ(static_cast<Index>(solver.loops()[0].unknowns.size()), n);
+    for (const double t : {0.3, 0.35, 2.0}) {
+      x[0] = t;
+      ASSERT_EQ(solver.solve(t, x, kNone).status, SolveStatus::kConverged);
+      EXPECT_LE((solver.y() - loop.solution(t, x[0])).cwiseAbs().maxCoeff(), 1e-11 * loop.solution(t, x[0]).cwiseAbs().maxCoeff()) << n << " unknowns at " << t;
+    }
+  }
+}
+
+TEST(AlgebraicSolver, beginsWhereTheLastInstantsPoint) {
+  const LinearLoop loop(6);
+  CoupledSystem system = loop.system();
+  const Vector x = system.initialState();
+  AlgebraicSolver solver(system, tight(), 0.0, x, kNone);
+  const auto iterations = [&](double t) {
+    const auto before = solver.counters().newton_iterations;
+    EXPECT_EQ(solver.solve(t, x, kNone).status, SolveStatus::kConverged);
+    EXPECT_LE((solver.y() - loop.solution(t, 0.0)).cwiseAbs().maxCoeff(), 1e-11 * loop.solution(t, 0.0).cwiseAbs().maxCoeff());
+    return solver.counters().newton_iterations - before;
+  };
+  EXPECT_GE(iterations(0.1), 1u);
+  EXPECT_GE(iterations(0.2), 1u);
+  for (const double t : {0.3, 0.35, 0.5}) EXPECT_EQ(iterations(t), 0u) << "the parabola is the solution at " << t;
+  EXPECT_EQ(iterations(0.35), 0u) << "an instant that was solved before";
+  EXPECT_GE(iterations(-50.0), 1u) << "out of reach";
+  EXPECT_GE(iterations(-49.9), 1u) << "nothing is left of what was before";
+}
+
+TEST(AlgebraicSolver, learnsHowTheJacobianHasChanged) {
+  // All gains of one row have grown by half since the Jacobian was taken.
+  const LinearLoop loop(6);
+  CoupledSystem system = loop.system();
+  Vector x = system.initialState();
+  SolverOptions options;
+  AlgebraicSolver solver(system, options, 0.0, x, kNone);
+  const auto factorizations = solver.counters().factorizations;
+  x[0] = 0.5;
+  const auto iterations = [&](double t) {
+    const auto before = solver.counters().newton_iterations;
+    EXPECT_EQ(solver.solve(t, x, kNone).status, SolveStatus::kConverged);
+    EXPECT_LE((solver.y() - loop.solution(t, 0.5)).cwiseAbs().maxCoeff(), 1e-8 * loop.solution(t, 0.5).cwiseAbs().maxCoeff());
+    return solver.counters().newton_iterations - before;
+  };
+  // With the Jacobian alone each iteration leaves this part of the error: from a start that tells nothing, so many of them.
+  const Matrix old = Matrix::Identity(6, 6) - loop.gains(0.0), now = Matrix::Identity(6, 6) - loop.gains(0.5);
+  const double left = (Matrix::Identity(6, 6) - old.partialPivLu().solve(now)).eigenvalues().cwiseAbs().maxCoeff();
+  ASSERT_GT(std::log(options.tolerance) / std::log(left), 4.0);
+  for (const double t : {1.0, -100.0, -300.0}) iterations(t);
+  for (const double t : {-700.0, -1500.0, -3100.0}) EXPECT_LE(iterations(t), 2u) << "far away from where it was solved before";
+  EXPECT_EQ(solver.counters().factorizations, factorizations);
+}
+
+TEST(AlgebraicSolver, evaluatesPortsOfOneModelTogetherAndLongOnesIntoTheirReader) {
+  /// Counts calls; ports 0 and 1 are long, and read by "reader" alone, port 2 is short.
+  struct Wide : SubsystemModel {
+    std::vector<State> states() const override { return {}; }
+    std::vector<InputPort> inputs() const override { return {{"in", 1, "-", ""}}; }
+    std::vector<OutputPort> outputs() const override { return {{"a", 20, "-", ""}, {"b", 20, "-", "", {"in"}}, {"c", 1, "-", ""}}; }
+    void evalOutput(Index port, double t, const In&, const In& u, Out y) noexcept override { y.setConstant(port == 1 ? t + u[0] : t - static_cast<double>(port)); }
+    void evalOutputs(const PortValue* values, Index count, double t, const In& x, const In& u) noexcept override {
+      together = std::max(together, count);
+      SubsystemModel::evalOutputs(values, count, t, x, u);
+    }
+    void evalDerivatives(double, const In&, const In&, Out) noexcept override {}
+    Index together = 0;
+  };
+  CouplingGraph graph;
+  auto wide = std::make_unique<Wide>();
+  const Wide& asked = *wide;
+  graph.add("source", FunctionModel().output("out", 1, {}, [](double t, const In&, const In&, Out y) { y[0] = 10.0 * t; }).make());
+  graph.add("wide", std::move(wide));
+  graph.add("reader", FunctionModel().state("x", 0.0).input("a", 20).input("b", 20).input("c").derivatives([](double, const In&, const In& u, Out xdot) { xdot[0] = u.sum(); }).make());
+  graph.connect("source.out", "wide.in");
+  for (const char* port : {"a", "b", "c"}) graph.connect(std::string("wide.") + port, std::string("reader.") + port);
+  CoupledSystem system = std::move(graph).build();
+  const Vector x = system.initialState();
+  AlgebraicSolver solver(system, tight(), 0.0, x, kNone);
+  for (const double t : {1.0, 2.0}) {
+    ASSERT_EQ(solver.solve(t, x, kNone).status, SolveStatus::kConverged);
+    EXPECT_EQ(solver.u().tail(41).sum(), 20.0 * t + 20.0 * 11.0 * t + t - 2.0);
+    solver.evalObserved(t, x, kNone);
+    EXPECT_TRUE((solver.y().segment(1, 20).array() == t).all()) << "an observer sees them, too";
+    EXPECT_TRUE((solver.y().segment(21, 20).array() == 11.0 * t).all());
+  }
+  EXPECT_EQ(asked.together, 3);
 }
 
 TEST(AlgebraicSolver, reportsALoopWithoutSolution) {

@@ -65,6 +65,7 @@ class BladeAirloads : public SubsystemModel {
   std::vector<InputPort> inputs() const override;
   std::vector<OutputPort> outputs() const override;
   void evalOutput(Index port, double t, const In& x, const In& u, Out y) noexcept override;
+  void evalOutputs(const PortValue* values, Index count, double t, const In& x, const In& u) noexcept override;
   void evalDerivatives(double t, const In& x, const In& u, Out xdot) noexcept override;
   /// Lag states that are zero get the value of steady flow. (Inflow from a model without states is not solved at that point; then
   /// the lift starts with a transient of some chord lengths.)
