@@ -94,7 +94,7 @@ warm-up and from a saved state, through the general coupled system, without obse
 {step_figure}
 {tables.machines(results)}
 *Stands for*: the step size h. *Residuals per solve*: evaluations of the algebraic part per stage; 0 where there is no loop.
-
+{tables.speed_change(results)}
 ## Parts of a step of the elastic rotor
 
 {part_figure}

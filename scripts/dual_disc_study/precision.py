@@ -81,13 +81,14 @@ def work_precision(study, folder, checks):
     rows = []
     for speed in SPEEDS:
         for level in LEVELS:
-            fast = time_at(curves["HEERK4", speed], level)
-            cells = [speed, power(level), f"{1e3 * fast:.2g}" if fast else "-"]
+            fast = [time_at(curves[name, speed], level) for name in ("HEERK4", "HEERK4, moved")]
+            cells = [speed, power(level)] + [f"{1e3 * t:.2g}" if t else "-" for t in fast]
             for name in ("Newmark", "precise_2"):
                 slow = time_at(curves[name, speed], level)
-                cells.append(f"{slow / fast:.0f}" if slow and fast else "-")
-                if slow and fast and level == 1e-6:
-                    checks.add(f"{name} takes at least 30 times as long as HEERK4 for an error of 10⁻⁶ at {speed} rpm", slow / fast >= 30.0, f"{slow / fast:.0f} times")
+                cells += [f"{slow / t:.0f}" if slow and t else "-" for t in fast]
+                if slow and any(fast) and level == 1e-6:
+                    ratio = slow / min(t for t in fast if t)
+                    checks.add(f"{name} takes at least 30 times as long as HEERK4 with its better setting for an error of 10⁻⁶ at {speed} rpm", ratio >= 30.0, f"{ratio:.0f} times")
             rows.append(cells)
     orders = []
     for name, high, low, order in ORDERS:
@@ -104,6 +105,7 @@ Orders at 5000 and 40000 rpm by least squares: {"; ".join(orders)}. Nothing accu
 HEERK4 integrates exactly whatever is linear, so that its error is that of the film force alone. Its order is 4 at large steps; below 5·10⁻⁵ s, where h omega of the two stiff
 modes that move the journal (2.97·10⁵ and 9.94·10⁵ rad/s) falls from tens to one, with bumps where it comes near a multiple of 2 pi (1.25·10⁻⁵ s at 40000 rpm: 4 pi), its order is 3 on average.
 
-Times are medians of {REPEATS} rounds over all methods, {TIMED_STEPS} steps each. How many times as long as HEERK4 the others take for the same error:
+Times are medians of {REPEATS} rounds over all methods, {TIMED_STEPS} steps each. How many times as long as HEERK4 the others take for the same error,
+HEERK4 as it comes, and with {FILM_DAMPING:.0f} N s/m of the film's damping in S ("moved", `linearised_film_damping`; the other two gain nothing by it):
 
-""" + table(["rpm", "error", "HEERK4 [ms]", "Newmark / HEERK4", "precise_2 / HEERK4"], rows)
+""" + table(["rpm", "error", "HEERK4 [ms]", "moved [ms]", "Newmark / HEERK4", "Newmark / moved", "precise_2 / HEERK4", "precise_2 / moved"], rows)

@@ -14,6 +14,7 @@ MACHINES = [
     ("elastic rotor, 20 sections", "fe_rotor_step", "step/bo105_20_sections"),
     ("elastic rotor, linear airloads", "fe_rotor_step", "step/bo105_linear_airloads"),
     ("elastic rotor, rigid mount", "fe_rotor_step", "step/bo105_rigid_mount"),
+    ("elastic rotor, another rotor speed every revolution", "fe_rotor_step", "step/bo105_speed_changes"),
     ("dual disc, HEERK4, 5000 rpm", "dual_disc_step", "step/HEERK4"),
     ("dual disc, HEERK4, 40000 rpm", "dual_disc_step", "step/HEERK4_40000rpm"),
     ("dual disc, HEERK3", "dual_disc_step", "step/HEERK3"),
@@ -59,6 +60,16 @@ def time_text(seconds):
         if seconds >= scale:
             return f"{seconds / scale:.3g} {unit}"
     return f"{seconds / 1e-9:.3g} ns"
+
+
+def speed_change(results):
+    """A sentence: what a change of the rotor speed does to single steps."""
+    found = [results.get("fe_rotor_step", f"step/{name}") for name in ("bo105_speed_changes", "bo105")]
+    if not all(found):
+        return ""
+    changing, steady = ([m.counters.get(f"wall_{which}_us", 0.0) for which in ("99.9%", "longest")] for m in found)
+    return (f"When the speed command changes by 5 % every revolution, 99.9 % of the steps take at most {changing[0]:.0f} µs by the wall clock and the longest takes {changing[1]:.0f} µs "
+            f"(at constant speed {steady[0]:.0f} and {steady[1]:.0f} µs) of {found[0].counters.get('h', 0.0) * 1e6:.0f} µs: nothing is tabulated anew, S belongs to the nominal speed.\n")
 
 
 def machines(results):

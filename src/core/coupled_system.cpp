@@ -64,6 +64,14 @@ void CoupledSystem::setStart(std::vector<std::pair<Index, double>> states, const
   default_command_ = command;
 }
 
+std::unique_ptr<SubsystemModel> CoupledSystem::exchangeModel(Index subsystem, std::unique_ptr<SubsystemModel> model) {
+  Subsystem& s = subsystems_[static_cast<std::size_t>(subsystem)];
+  std::swap(s.model, model);
+  s.narrow = nullptr;  // belongs to the old one
+  layOutStages();
+  return model;
+}
+
 const double* CoupledSystem::firstSource(const Input& input, const Vector& y, const Vector& w) const noexcept {
   return !input.source_begin.empty() ? y.data() + input.source_begin[0] : input.command >= 0 ? w.data() + input.command : input.default_value.data();
 }
@@ -117,7 +125,7 @@ void CoupledSystem::evalTogether(const std::vector<OutputCall>& calls, const Ind
   first.model->evalOutputs(values, count, t, In(x.data() + first.x_begin, first.x_size), In(u.data() + first.u_begin, first.u_size));
 }
 
-void CoupledSystem::RatesCall::takeOffStiff(const In& x, Out remainder) const noexcept { subtractStiff(*stiff, x, In(remainder.data(), remainder.size()), remainder); }
+void CoupledSystem::RatesCall::takeOffStiff(const In& x, Out&& remainder) const noexcept { subtractStiff(*stiff, x, In(remainder.data(), remainder.size()), Out(remainder.data(), remainder.size())); }
 
 void CoupledSystem::evalRemainder(double t, const Vector& x, const Vector& u, bool complete, double* remainder) noexcept {
   for (const RatesCall& call : rates_calls_) call(t, x.data() + call.x_begin, u.data(), complete, remainder + call.x_begin);

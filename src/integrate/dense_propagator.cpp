@@ -55,10 +55,14 @@ class MatrixPropagator final : public LinearPropagator {
     Column sum = Column::Zero();
     const RowPlan::Product* const end = plan_.products.data() + range.end;
     for (const RowPlan::Product* product = plan_.products.data() + range.begin; product != end; ++product) {
-      Column column = Eigen::Map<const Column>(from.first(*product));
-      if (const double* const second = from.second(*product)) column += Eigen::Map<const Column>(second);
+      // Columns number by number: models have written them so a moment ago.
+      const double* const first = from.first(*product);
+      const double* const second = from.second(*product);
       const double* const m = table_.data() + N * N * product->entry;
-      for (int j = 0; j < N; ++j) sum += Eigen::Map<const Column>(m + N * j) * column[j];
+      if (second)
+        for (int j = 0; j < N; ++j) sum += Eigen::Map<const Column>(m + N * j) * (first[j] + second[j]);
+      else
+        for (int j = 0; j < N; ++j) sum += Eigen::Map<const Column>(m + N * j) * first[j];
     }
     Eigen::Map<Column>{result} = sum;
   }

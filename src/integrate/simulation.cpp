@@ -50,8 +50,9 @@ Simulation::Simulation(CoupledSystem system, const StepOptions& options) : syste
 Simulation::~Simulation() = default;
 
 bool Simulation::solveStage(double t, const Vector& x, const Vector& w) noexcept {
-  failure_report_ = solver_->solve(t, x, w);
-  if (failure_report_.status == SolveStatus::kConverged) return true;
+  const SolveReport report = solver_->solve(t, x, w);
+  if (report.status == SolveStatus::kConverged) return true;
+  failure_report_ = report;
   status_ = StepStatus::kSolverStalled;
   if (failure_report_.status == SolveStatus::kNonFinite) status_ = StepStatus::kNonFinite;
   failure_time_ = t;

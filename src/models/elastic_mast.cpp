@@ -24,7 +24,7 @@ StiffPart ElasticMast::stiffPart() const {
 }
 
 double ElasticMast::hubAcceleration(const In& x, const In& u) const noexcept {
-  const double in_space = (u[kReaction] - p_.stiffness * x[kTwist] - p_.damping * x[kTwistRate]) / load_.inertia;
+  const double in_space = (u[kReaction] - p_.stiffness * x[kTwist] - p_.damping * x[kTwistRate]) * per_inertia_;
   return hub_ == MastHub::kOwn ? in_space - u[kMountAcceleration + kYaw] : in_space;
 }
 
@@ -56,7 +56,7 @@ void ElasticMast::evalDerivatives(double, const In& x, const In& u, Out xdot) no
 
 void ElasticMast::evalRemainder(double, const In& x, const In& u, Out remainder) noexcept {
   remainder[kTwist] = 0.0;
-  remainder[kTwistRate] = (u[kReaction] + load_.stiffness * x[kTwist] + load_.damping * x[kTwistRate]) / load_.inertia - u[kDriveAcceleration];
+  remainder[kTwistRate] = (u[kReaction] + load_.stiffness * x[kTwist] + load_.damping * x[kTwistRate]) * per_inertia_ - u[kDriveAcceleration];
   if (hub_ == MastHub::kOwn) remainder[kTwistRate] -= u[kMountAcceleration + kYaw];
 }
 

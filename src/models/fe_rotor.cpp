@@ -235,7 +235,7 @@ class FeRotor : public SubsystemModel {
     store(y, j, component + 2, components, value.z);
   }
 
-  void sectionGeometry(Index port, const In& u, Out y) noexcept {
+  void sectionGeometry(Index port, const In& u, Out& y) noexcept {
     const BladeAxes<L>& axes = movingAxes(u);
     const Vec pitch = loadLanes<L>(input(u, port == kSectionPitchRate ? kPitchRate : kPitch), blades_);
     const Vec3 lead{Vec{}, sameLanes<L>(dynamics_.rootLead()), Vec{}};
@@ -288,7 +288,7 @@ class FeRotor : public SubsystemModel {
 
   static Vec inverseNorm(const Vec3& v) noexcept { return 1.0 / squareRoot<L>(dot(v, v)); }
 
-  void sectionAcceleration(const In& u, Out y) noexcept {
+  void sectionAcceleration(const In& u, Out& y) noexcept {
     const BladeAxes<L>& axes = movingAxes(u);
     const double* mount = input(u, kMountAcceleration);
     const double* gravity = input(u, kHubGravity);
@@ -321,7 +321,7 @@ class FeRotor : public SubsystemModel {
     return total;
   }
 
-  void hubLoads(Index port, const In& u, Out y) noexcept {
+  void hubLoads(Index port, const In& u, Out& y) noexcept {
     const Vec3 force = dynamics_.rootForce(), moment = dynamics_.rootMoment();
     if (port == kRootLoad) {
       for (int k = 0; k < blades_; ++k) y.segment(6 * k, 6) << force.x[k], force.y[k], force.z[k], moment.x[k], moment.y[k], moment.z[k];
@@ -334,7 +334,7 @@ class FeRotor : public SubsystemModel {
     else y << sum(in_hub.x), sum(in_hub.y), sum(in_hub.z);
   }
 
-  void tip(Index port, const In& u, Out y) noexcept {
+  void tip(Index port, const In& u, Out& y) noexcept {
     const int j = static_cast<int>(p_.sections.count());
     const SectionMotion<L> d = dynamics_.displacement(j);
     if (port == kTipTwist) {
@@ -359,7 +359,7 @@ class FeRotor : public SubsystemModel {
     storeLanes<L>((port == kLag || port == kLagRate ? in_R.y : in_R.z) / p_.sections.radius, blades_, y.data());
   }
 
-  void balance(Index port, const In& u, Out y) noexcept {
+  void balance(Index port, const In& u, Out& y) noexcept {
     if (port == kDissipation) {
       y[0] = sum(dynamics_.dissipation());
       return;

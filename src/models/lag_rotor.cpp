@@ -68,8 +68,7 @@ double LagRotor::lagRate(const In& x, const In& u, int i) const noexcept { retur
 
 /// What accelerates a blade about its hinge apart from the hub's motion: springs, damper, airload.
 double LagRotor::hingeAcceleration(const In& x, const In& u, int i) const noexcept {
-  const double k = c_.r_a2 * u[kSpeed] * u[kSpeed] + p_.lag_frequency[i] * p_.lag_frequency[i];
-  return -k * lagAngle(x, u, i) + (u[kMoment + i] - p_.lag_damper[i] * lagRate(x, u, i)) / c_.lag_inertia;
+  return c_.load * u[kMoment + i] - (c_.r_a2 * u[kSpeed] * u[kSpeed] + c_.spring[i]) * lagAngle(x, u, i) - c_.damper[i] * lagRate(x, u, i);
 }
 
 LagRotor::Accelerations LagRotor::accelerations(const In& x, const In& u) const noexcept {
@@ -96,12 +95,12 @@ LagRotor::Accelerations LagRotor::accelerations(const In& x, const In& u) const 
   const double sin_force = s * force13 + c * force24, cos_force = c * force13 - s * force24;
 
   // Fuselage rows with phi_i'' eliminated: sum s_i^2 = sum c_i^2 = 2 and sum s_i c_i = 0 for four blades.
-  const double rhs_x = -(p_.fuselage_damping_x * x[kXRate] + sin_force) / c_.mass_x - p_.fuselage_frequency_x * p_.fuselage_frequency_x * x[kX] +
+  const double rhs_x = -(p_.fuselage_damping_x * x[kXRate] + sin_force) * c_.per_mass_x - p_.fuselage_frequency_x * p_.fuselage_frequency_x * x[kX] +
                        c_.r_mx * (sin_acc + 2.0 * omega * cos_rate - omega * omega * sin_lag + alpha * cos_lag);
-  const double rhs_y = -(p_.fuselage_damping_y * x[kYRate] - cos_force) / c_.mass_y - p_.fuselage_frequency_y * p_.fuselage_frequency_y * x[kY] -
+  const double rhs_y = -(p_.fuselage_damping_y * x[kYRate] - cos_force) * c_.per_mass_y - p_.fuselage_frequency_y * p_.fuselage_frequency_y * x[kY] -
                        c_.r_my * (cos_acc - 2.0 * omega * sin_rate - omega * omega * cos_lag - alpha * sin_lag);
-  a.x = rhs_x / (1.0 - 2.0 * c_.r_mx * c_.r_b);
-  a.y = rhs_y / (1.0 - 2.0 * c_.r_my * c_.r_b);
+  a.x = c_.gain_x * rhs_x;
+  a.y = c_.gain_y * rhs_y;
 
   const double along_13 = c_.r_b * (s * a.x - c * a.y), along_24 = c_.r_b * (c * a.x + s * a.y);
   a.lag[0] += along_13;
@@ -136,10 +135,10 @@ bool LagRotor::outputJacobian(Index port, double, const In& x, const In& u, Eige
   const double relative_to_drive = absolute_ ? c_.g : 0.0;  // d(lag angle) / d(twist) = -g
   jacobian.setZero();
   for (int i = 0; i < kLagBlades; ++i) {
-    const double k = c_.r_a2 * u[kSpeed] * u[kSpeed] + p_.lag_frequency[i] * p_.lag_frequency[i];
+    const double k = c_.r_a2 * u[kSpeed] * u[kSpeed] + c_.spring[i];
     jacobian(0, kSpeed) += 2.0 * c_.coupling_inertia * c_.r_a2 * u[kSpeed] * lagAngle(x, u, i);
     jacobian(0, kTwist) -= c_.coupling_inertia * k * relative_to_drive;
-    jacobian(0, kTwistRate) -= c_.coupling_inertia * p_.lag_damper[i] / c_.lag_inertia * relative_to_drive;
+    jacobian(0, kTwistRate) -= c_.coupling_inertia * c_.damper[i] * relative_to_drive;
     jacobian(0, kForce + i) = p_.hinge_offset;
     jacobian(0, kMoment + i) = 1.0 - c_.coupling_inertia / c_.lag_inertia;
   }
@@ -147,14 +146,14 @@ bool LagRotor::outputJacobian(Index port, double, const In& x, const In& u, Eige
   return true;
 }
 
-void LagRotor::hubForce(const In& x, const In& u, Out y) const noexcept {
+void LagRotor::hubForce(const In& x, const In& u, Out& y) const noexcept {
   const Accelerations a = accelerations(x, u);
   const double force_x = p_.fuselage_mass_x * a.x + p_.fuselage_damping_x * x[kXRate] + c_.mass_x * p_.fuselage_frequency_x * p_.fuselage_frequency_x * x[kX];
   const double force_y = p_.fuselage_mass_y * a.y + p_.fuselage_damping_y * x[kYRate] + c_.mass_y * p_.fuselage_frequency_y * p_.fuselage_frequency_y * x[kY];
   y << -force_x, -force_y, u[kThrust];  // the paper's x points aft and y to starboard
 }
 
-void LagRotor::bladeMomentum(const In& x, const In& u, Out y) const noexcept {
+void LagRotor::bladeMomentum(const In& x, const In& u, Out& y) const noexcept {
   const double s = std::sin(u[kAzimuth]), c = std::cos(u[kAzimuth]), omega = u[kSpeed];
   const double lag13 = lagAngle(x, u, 0) - lagAngle(x, u, 2), lag24 = lagAngle(x, u, 1) - lagAngle(x, u, 3);
   const double rate13 = lagRate(x, u, 0) - lagRate(x, u, 2), rate24 = lagRate(x, u, 1) - lagRate(x, u, 3);

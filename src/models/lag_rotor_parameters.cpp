@@ -44,6 +44,15 @@ LagRotorConstants::LagRotorConstants(const LagRotorParameters& p) {
   g = 1.0 + r_a2;
   hub_inertia = kLagBlades * ((a + b) * (a + b) * m + p.blade_inertia);
   coupling_inertia = b * (a + b) * m + p.blade_inertia;
+  load = 1.0 / lag_inertia;
+  for (int i = 0; i < kLagBlades; ++i) {
+    spring[i] = p.lag_frequency[i] * p.lag_frequency[i];
+    damper[i] = p.lag_damper[i] / lag_inertia;
+  }
+  per_mass_x = 1.0 / mass_x;
+  per_mass_y = 1.0 / mass_y;
+  gain_x = 1.0 / (1.0 - 2.0 * r_mx * r_b);
+  gain_y = 1.0 / (1.0 - 2.0 * r_my * r_b);
   q = kLagBlades * coupling_inertia * g / hub_inertia;
   // J - 4 S_h g written without cancellation: the inertia about the hub that pure lag motion cannot balance,
   // J - 4 S_h^2 / I_l = 4 a^2 m_b I_zb / I_l.

@@ -30,8 +30,11 @@ class ExplicitInverse {
   void apply(double* b) const noexcept {
     alignas(64) double result[kLargest];
     for (Index row = 0; row < pitch_; row += 2 * kLanes) row + kLanes < pitch_ ? rows<2 * kLanes>(row, b, result) : rows<kLanes>(row, b, result);
+    using Lanes = Eigen::Array<double, kLanes, 1>;
+    Index i = 0;
+    for (; i + kLanes <= size_; i += kLanes) Eigen::Map<Lanes>(b + i) = Eigen::Map<const Lanes>(result + i);
 #pragma GCC unroll 1
-    for (Index i = 0; i < size_; ++i) b[i] = result[i];
+    for (; i < size_; ++i) b[i] = result[i];
   }
 
  private:

@@ -246,8 +246,7 @@ void LoopSolver::markUnknowns() noexcept {
 SolveReport LoopSolver::solve(double t, const Vector& x, const Vector& w) noexcept {
   Loop& loop = current();
   evaluateInOrder(loop.plan, loop.plan.before, t, x, w);
-  SolveReport report;
-  if (!loop.plan.unknowns.empty()) report = iterateFromPrediction(loop, t, x, w);
+  SolveReport report = loop.plan.unknowns.empty() ? SolveReport() : iterateFromPrediction(loop, t, x, w);
   for (const Index port : loop.plan.core) adopt(port);
   evaluateInOrder(loop.plan, loop.plan.after, t, x, w);
   const bool good = report.status == SolveStatus::kConverged && consistent(loop, t, x, w, report.entry);

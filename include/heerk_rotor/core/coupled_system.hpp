@@ -93,6 +93,9 @@ class CoupledSystem {
   /// declared, and the command (commandSize()) that is the default from now on.
   void setStart(std::vector<std::pair<Index, double>> states, const Vector& command);
 
+  /// Puts another model in the place of a subsystem's, with the same states and ports: one that forwards to it and measures, say. Returns the old one.
+  std::unique_ptr<SubsystemModel> exchangeModel(Index subsystem, std::unique_ptr<SubsystemModel> model);
+
   /// Sums the sources of one input port into u. Returns whether any entry changed (bitwise).
   bool gather(Index input, const Vector& y, const Vector& w, Vector& u) const noexcept;
 
@@ -148,13 +151,13 @@ class CoupledSystem {
     Index x_begin, x_size, z_begin, z_size, r_begin, r_size, u_begin, u_size;
 
     void operator()(double t, const double* x, const double* u, bool complete, double* remainder) const noexcept {
+      // Views are made where they are handed over: one that is copied waits until its parts have left the store buffer.
       const In xs(x, x_size), us(u + u_begin, u_size);
-      const Out out(remainder, x_size);
-      if (provides_remainder && !complete) return model->evalRemainder(t, xs, us, out);
-      model->evalDerivatives(t, xs, us, out);
-      if (stiff && !complete) takeOffStiff(xs, out);
+      if (provides_remainder && !complete) return model->evalRemainder(t, xs, us, Out(remainder, x_size));
+      model->evalDerivatives(t, xs, us, Out(remainder, x_size));
+      if (stiff && !complete) takeOffStiff(xs, Out(remainder, x_size));
     }
-    void takeOffStiff(const In& x, Out remainder) const noexcept;
+    void takeOffStiff(const In& x, Out&& remainder) const noexcept;
   };
 
   void layOutStages();

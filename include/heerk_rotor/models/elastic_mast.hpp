@@ -19,7 +19,7 @@ class ElasticMast : public SubsystemModel {
     double damping = 0.0;      // c [N m s/rad]
     double rotor_speed = 0.0;  // Omega [rad/s]
   };
-  ElasticMast(const Parameters& parameters, const MastLoad& load, MastHub hub = MastHub::kOfLagRotor) : p_(parameters), load_(load), hub_(hub) {}
+  ElasticMast(const Parameters& parameters, const MastLoad& load, MastHub hub = MastHub::kOfLagRotor) : p_(parameters), load_(load), per_inertia_(1.0 / load.inertia), hub_(hub) {}
 
   std::vector<State> states() const override;
   std::vector<InputPort> inputs() const override;
@@ -35,6 +35,7 @@ class ElasticMast : public SubsystemModel {
   double hubAcceleration(const In& x, const In& u) const noexcept;
   Parameters p_;
   MastLoad load_;
+  double per_inertia_;  // 1 / load_.inertia
   MastHub hub_;
 };
 

@@ -51,8 +51,8 @@ class LagRotor : public SubsystemModel {
   double hingeAcceleration(const In& x, const In& u, int blade) const noexcept;
   Accelerations accelerations(const In& x, const In& u) const noexcept;
   double bladeReaction(const In& x, const In& u) const noexcept;
-  void hubForce(const In& x, const In& u, Out y) const noexcept;
-  void bladeMomentum(const In& x, const In& u, Out y) const noexcept;
+  void hubForce(const In& x, const In& u, Out& y) const noexcept;
+  void bladeMomentum(const In& x, const In& u, Out& y) const noexcept;
 
   LagRotorParameters p_;
   LagRotorConstants c_;

@@ -48,6 +48,11 @@ struct LagRotorConstants {
   double hub_inertia;         // J = 4 (a+b)^2 m_b + 4 I_zb [kg m^2]
   double coupling_inertia;    // S_h = b (a+b) m_b + I_zb = J r_sb [kg m^2]
   double q;                   // 4 r_sb g [-]
+  double spring[kLagBlades];  // omega_b^2 [1/s^2]
+  double damper[kLagBlades];  // lag damper over I_l [1/s]
+  double load;                // 1 / I_l [1/(kg m^2)]
+  double per_mass_x, per_mass_y;  // 1 / mass [1/kg]
+  double gain_x, gain_y;      // 1 / (1 - 2 r_m r_b): of the fuselage's rows once the blades' accelerations are eliminated
   double kappa;               // 1 / (1 - q): amplification of the loop hub acceleration -> lag acceleration
 };
 

@@ -28,7 +28,7 @@ enum MastOutput { kHubMotion, kHubAcceleration, kTwistOut, kAzimuth, kSpeed, kTo
 
 /// The two outputs of a hub of its own: H from hub inertia and speed relative to the mount, and its reaction on the mount.
 inline double hubAngularMomentum(double inertia, double speed, const In& u) noexcept { return inertia * (speed + u[kMountVelocity + kYaw]); }
-inline void gyroscopicMoment(double angular_momentum, const In& u, Out y) noexcept {
+inline void gyroscopicMoment(double angular_momentum, const In& u, Out& y) noexcept {
   y << -u[kMountVelocity + kPitchAxis] * angular_momentum, u[kMountVelocity + kRoll] * angular_momentum;
 }
 
