@@ -95,6 +95,7 @@ warm-up and from a saved state, through the general coupled system, without obse
 {tables.machines(results)}
 *Stands for*: the step size h. *Residuals per solve*: evaluations of the algebraic part per stage; 0 where there is no loop.
 {tables.speed_change(results)}
+{tables.generality(results)}
 ## Parts of a step of the elastic rotor
 
 {part_figure}

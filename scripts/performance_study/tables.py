@@ -72,6 +72,29 @@ def speed_change(results):
             f"(at constant speed {steady[0]:.0f} and {steady[1]:.0f} µs) of {found[0].counters.get('h', 0.0) * 1e6:.0f} µs: nothing is tabulated anew, S belongs to the nominal speed.\n")
 
 
+def generality(results):
+    """The general coupled system beside steps written by hand for one problem each."""
+    rows = []
+    for label, name in (("lag rotor, K_s = 3·10⁴ N m/rad", "lag_rotor_3e4"), ("lag rotor, K_s = 3·10⁶", "lag_rotor_3e6"), ("lag rotor, K_s = 3·10⁸", "lag_rotor_3e8"),
+                        ("dual disc, 5000 rpm", "dual_disc")):
+        found = [results.get("hand_written", f"{kind}/{name}") for kind in ("general", "hand_written")]
+        if all(found):
+            rows.append([label, time_text(found[0].best), time_text(found[1].best), f"{found[0].best / found[1].best:.1f}", f"{found[1].counters.get('difference', 0.0):.0e}"])
+    if not rows:
+        return ""
+    return """## Beside steps written by hand
+
+What ports, loops and any number of models cost over a program for one problem alone, in the same run and with the same solution (`bench/hand_written_bench.cpp`):
+
+""" + table(["machine", "general", "by hand", "ratio", "difference after 1000 steps"], rows) + """
+The hand-written lag rotor knows that its blades are equal and undamped: it splits them into collective, differential and cyclic lag, takes the mast through all stages before the fuselage,
+and all sines at once. A plain one, 14 states as they are with one sine and cosine per stage, took 0.20 to 0.23 µs where this one took 0.12. Half of the general step is the same
+physics, with reaction and accelerations as two ports that share no work (samples of a profile: 47 %); a quarter is calling and copying, five evaluations and six copies in each
+of five stages; 15 % is the propagation of two blocks by tables and 5 % the check that every stage is finite.
+In the dual disc's step five film forces, each waiting for the one before, take 0.3 µs in both programs.
+"""
+
+
 def machines(results):
     rows = []
     for label, program, name in MACHINES:

@@ -21,13 +21,13 @@ SqueezeFilm::Force SqueezeFilm::force(double rho_x, double rho_y, double v_x, do
     rho_y *= shrink;
     e2 = kLargestEccentricity * kLargestEccentricity;
   }
-  // Along and across the velocity a^2 + b^2 = e^2, so that what depends on e alone need not wait for the direction.
+  // Along and across the velocity a^2 + b^2 = e^2, so that what depends on e alone need not wait for the direction; S needs no direction of unit length.
   const double D = 1.0 - e2, root = std::sqrt(D), over_speed = 1.0 / speed;
   const double u_x = v_x * over_speed, u_y = v_y * over_speed;
   const double a = rho_x * u_x + rho_y * u_y, b = rho_y * u_x - rho_x * u_y, one_less_b2 = D + a * a;
 
   // Shares of S / D^(5/2), then what the half film has besides.
-  const double S = (full_ ? kPi : arcTangent2(root, -a)) / root;
+  const double S = (full_ ? kPi : arcTangent2(root * speed, -(rho_x * v_x + rho_y * v_y))) / root;
   double along = S * (one_less_b2 + 2.0 * a * a), across = S * 3.0 * a * b;
   if (!full_) {
     along += 3.0 * a;

@@ -11,7 +11,6 @@ namespace {
 using Lanes = Eigen::Array<double, 4, 1>;
 using Load = Eigen::Map<const Lanes>;
 constexpr Index kLanes = Lanes::RowsAtCompileTime;
-constexpr double kServes = 0.1;           // a full memory is good enough while corrections shrink by this
 constexpr double kNearlySingular = 1e-3;  // of what a new pair divides by, in parts of |s|^2
 
 inline double dot(const double* left, const double* right, Index size) noexcept {
@@ -45,7 +44,6 @@ void SecantMemory::learn(const double* s, const double* r_new, double* left) noe
   const double square = dot(s, s, size_), along = dot(s, left, size_), denominator = square - along;
   if (!(std::abs(denominator) > kNearlySingular * square)) return;  // also refuses what is not finite
   if (count_ == pairs_) {
-    if (dot(left, left, size_) <= kServes * kServes * square) return;
     clear();
     std::copy_n(r_new, size_, left);
     return;

@@ -286,9 +286,11 @@ TEST(AlgebraicSolver, learnsHowTheJacobianHasChanged) {
   // With the Jacobian alone each iteration leaves this part of the error: from a start that tells nothing, so many of them.
   const Matrix old = Matrix::Identity(6, 6) - loop.gains(0.0), now = Matrix::Identity(6, 6) - loop.gains(0.5);
   const double left = (Matrix::Identity(6, 6) - old.partialPivLu().solve(now)).eigenvalues().cwiseAbs().maxCoeff();
-  ASSERT_GT(std::log(options.tolerance) / std::log(left), 4.0);
-  for (const double t : {1.0, -100.0, -300.0}) iterations(t);
-  for (const double t : {-700.0, -1500.0, -3100.0}) EXPECT_LE(iterations(t), 2u) << "far away from where it was solved before";
+  const double needed = std::log(options.tolerance) / std::log(left);
+  std::uint64_t taken = 0;
+  double t = 1.0;
+  for (int k = 0; k < 10; ++k, t *= -3.0) taken += iterations(t);  // ever further away, so that the start tells nothing
+  EXPECT_LE(static_cast<double>(taken), 0.6 * 10.0 * needed) << "needed without learning: 10 times " << needed;
   EXPECT_EQ(solver.counters().factorizations, factorizations);
 }
 
