@@ -106,6 +106,6 @@ HEERK4 integrates exactly whatever is linear, so that its error is that of the f
 modes that move the journal (2.97·10⁵ and 9.94·10⁵ rad/s) falls from tens to one, with bumps where it comes near a multiple of 2 pi (1.25·10⁻⁵ s at 40000 rpm: 4 pi), its order is 3 on average.
 
 Times are medians of {REPEATS} rounds over all methods, {TIMED_STEPS} steps each. How many times as long as HEERK4 the others take for the same error,
-HEERK4 as it comes, and with {FILM_DAMPING:.0f} N s/m of the film's damping in S ("moved", `linearised_film_damping`; the other two gain nothing by it):
+HEERK4 as it comes, and with {FILM_DAMPING:.0f} N s/m of the film's damping in S ("moved", `linearised_film_damping`):
 
 """ + table(["rpm", "error", "HEERK4 [ms]", "moved [ms]", "Newmark / HEERK4", "Newmark / moved", "precise_2 / HEERK4", "precise_2 / moved"], rows)
