@@ -29,8 +29,8 @@ const char* text(Mode mode) {
 
 }  // namespace
 
-RotorDiagnostics::RotorDiagnostics(ros::NodeHandle& node, Simulation& simulation, RotorTask& task, RealTimeLoop& loop, const CommandInput* input)
-    : simulation_(simulation), task_(task), loop_(loop), input_(input) {
+RotorDiagnostics::RotorDiagnostics(ros::NodeHandle& node, Simulation& simulation, RotorTask& task, RealTimeLoop& loop, const LimitWatch& limits, const CommandInput* input)
+    : simulation_(simulation), task_(task), loop_(loop), limits_(limits), input_(input) {
   updater_.setHardwareID("none");
   updater_.add("Simulation", this, &RotorDiagnostics::reportSimulation);
   updater_.add("Real time", this, &RotorDiagnostics::reportRealTime);
@@ -60,6 +60,7 @@ RotorDiagnostics::Moment RotorDiagnostics::look() {
   });
   if (loop_.ended()) moment.mode = Mode::kFinished;
   moment.timing = loop_.timing().report();
+  moment.limits = limits_.reached();
   return moment;
 }
 
@@ -72,12 +73,15 @@ void RotorDiagnostics::update() {
 void RotorDiagnostics::reportSimulation(Status& status) {
   if (now_.mode == Mode::kFailed) status.summary(Level::ERROR, now_.failure);
   else status.summary(Level::OK, text(now_.mode));
+  if (now_.limits > before_.limits)
+    for (const std::string& warning : limits_.warnings()) status.mergeSummary(Level::WARN, warning);
   status.add("state", text(now_.mode));
   status.add("step", now_.step);
   status.add("epoch", now_.epoch);
   status.add("simulation time [s]", now_.time);
   status.add("step size [s]", simulation_.stepSize());
   status.add("integrator", simulation_.options().method);
+  status.add("limits of models reached [instants]", now_.limits);
 }
 
 void RotorDiagnostics::reportRealTime(Status& status) {

@@ -36,6 +36,7 @@ RotorNode::RotorNode(const NodeParameters& parameters)
     : parameters_(parameters),
       configuration_(Configuration::load(parameters.config, parameters.set)),
       simulation_(buildSimulation(configuration_)),
+      limits_(*simulation_, simulation_->options().revolution),
       commands_(simulation_->system()),
       rates_(chooseRates(parameters, simulation_->stepSize())),
       stamps_(chooseStampBase(parameters.publish_clock)),
@@ -46,7 +47,7 @@ RotorNode::RotorNode(const NodeParameters& parameters)
       loop_(task_, clock_, {simulation_->stepSize(), parameters.real_time_factor, rates_.steps_per_wake, parameters.priority}),
       services_(private_node_, *simulation_, task_, loop_, configuration_.resolvedText(), parameters.lock_step > 0),
       trim_service_(private_node_, configuration_, *simulation_, task_, loop_),
-      diagnostics_(node_, *simulation_, task_, loop_, commands_.hasSwashplate() ? &input_ : nullptr) {
+      diagnostics_(node_, *simulation_, task_, loop_, limits_, commands_.hasSwashplate() ? &input_ : nullptr) {
   for (HeldInput* input : {&disturbances_.speed(), &disturbances_.wind(), &disturbances_.externalWrench()}) task_.addInput(*input);
   outlets_->connect(diagnostics_, loop_.stopRequested());
   subscribeToCommands();
@@ -152,6 +153,7 @@ int RotorNode::exitStatus() {
   summary << "ended after " << timing.steps << " steps, simulation time " << simulation_->time() << " s: " << timing.overruns << " overruns (" << timing.late_wake_ups
           << " late wake-ups, " << timing.long_steps << " long steps), " << timing.slips << " slips";
   sayAtTheEnd(summary.str(), false);
+  for (const std::string& warning : limits_.warnings()) sayAtTheEnd(warning, false);
   const std::string problem = outlets_->recordingProblem();
   if (!problem.empty() && !recording_problem_reported_) sayAtTheEnd(problem, true);
   if (loop_.mode() == RealTimeLoop::Mode::kFailed) return kSimulationFailed;

@@ -7,7 +7,7 @@
 
 #include "heerk_rotor/analysis/step_warning.hpp"
 #include "heerk_rotor/tools/conclude_run.hpp"
-#include "heerk_rotor/tools/limit_watch.hpp"
+#include "heerk_rotor/analysis/limit_watch.hpp"
 #include "heerk_rotor/tools/run_analyses.hpp"
 #include "heerk_rotor/tools/run_length.hpp"
 #include "heerk_rotor/tools/run_sweep.hpp"

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "heerk_rotor/tools/conclude_run.hpp"
-#include "heerk_rotor/tools/limit_watch.hpp"
+#include "heerk_rotor/analysis/limit_watch.hpp"
 #include "heerk_rotor/tools/run_analyses.hpp"
 #include "heerk_rotor/tools/run_length.hpp"
 #include "heerk_rotor/tools/run_setup.hpp"

@@ -8,6 +8,7 @@
 #include <ros/node_handle.h>
 #include <ros/wall_timer.h>
 
+#include "heerk_rotor/analysis/limit_watch.hpp"
 #include "heerk_rotor/integrate/simulation.hpp"
 #include "heerk_rotor/realtime/real_time_loop.hpp"
 #include "heerk_rotor/realtime/snapshot_ring.hpp"
@@ -30,7 +31,7 @@ class RotorDiagnostics {
   };
 
   /// All references must outlive the diagnostics. `input` may be nullptr (no swashplate).
-  RotorDiagnostics(ros::NodeHandle& node, Simulation& simulation, RotorTask& task, RealTimeLoop& loop, const CommandInput* input);
+  RotorDiagnostics(ros::NodeHandle& node, Simulation& simulation, RotorTask& task, RealTimeLoop& loop, const LimitWatch& limits, const CommandInput* input);
 
   void addReader(Reader reader) { readers_.push_back(std::move(reader)); }
   /// `scheduling`: what the operating system granted the step thread, in words.
@@ -49,6 +50,7 @@ class RotorDiagnostics {
     double time = 0.0;
     SolverCounters solver;
     std::string failure;
+    std::uint64_t limits = 0;  // instants at which a model's limit was reached
     TimingReport timing;
   };
   Moment look();
@@ -62,6 +64,7 @@ class RotorDiagnostics {
   Simulation& simulation_;
   RotorTask& task_;
   RealTimeLoop& loop_;
+  const LimitWatch& limits_;
   const CommandInput* input_;  // nullptr: no swashplate
   std::vector<Reader> readers_;
   std::vector<std::uint64_t> reported_drops_;

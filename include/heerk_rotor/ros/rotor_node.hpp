@@ -7,6 +7,7 @@
 #include <std_msgs/Float64MultiArray.h>
 
 #include "heerk_rotor/SwashplateCommand.h"
+#include "heerk_rotor/analysis/limit_watch.hpp"
 #include "heerk_rotor/assembly/command_view.hpp"
 #include "heerk_rotor/config/configuration.hpp"
 #include "heerk_rotor/integrate/simulation.hpp"
@@ -47,6 +48,7 @@ class RotorNode {
   const NodeParameters parameters_;
   const Configuration configuration_;
   std::unique_ptr<Simulation> simulation_;
+  LimitWatch limits_;
   const CommandView commands_;
   const Rates rates_;
   const StampBase stamps_;

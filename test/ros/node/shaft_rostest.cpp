@@ -91,6 +91,20 @@ TEST_F(Shaft, showsOrbitsAndItsFrameAndReportsItsHealth) {
   EXPECT_EQ(std::stoll(values["overruns"]), std::stoll(values["overruns: late wake-up"]) + std::stoll(values["overruns: long step"]));
 }
 
+TEST_F(Shaft, warnsWhileTheJournalIsBeyondItsFilm) {
+  // A film of nearly no viscosity cannot hold an unbalance ten times as large. Beyond its limit it is too stiff for the shipped step.
+  Collector<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  node.set("set", std::vector<std::string>{"subsystems.film.viscosity=2e-7", "subsystems.shaft.discs.unbalance=[2.6e-3, 2.23e-3]", "simulation.step=5e-6"});
+  node.start();
+  EXPECT_TRUE(diagnostics.waitForLast([](const diagnostic_msgs::DiagnosticArray& array) {
+    for (const diagnostic_msgs::DiagnosticStatus& status : array.status)
+      if (status.level == diagnostic_msgs::DiagnosticStatus::WARN && status.message.find("film.film_clamped: the model's limit was reached at ") != std::string::npos) return true;
+    return false;
+  })) << node.output();
+  node.interrupt();
+  EXPECT_TRUE(node.says("largest eccentricity ratio ")) << node.output();
+}
+
 TEST_F(Shaft, pausesStepsResetsAndSavesLikeARotor) {
   node.start();
   ASSERT_TRUE(states.waitForSize(100)) << node.output();

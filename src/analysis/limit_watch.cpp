@@ -1,4 +1,4 @@
-#include "heerk_rotor/tools/limit_watch.hpp"
+#include "heerk_rotor/analysis/limit_watch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,30 +18,42 @@ LimitWatch::LimitWatch(Simulation& simulation, double revolution) : every_(stati
     const auto ratio = std::find_if(outputs.begin(), outputs.end(), [&output](const CoupledSystem::Output& other) {
       return other.subsystem == output.subsystem && endsWith(other.name, ".eccentricity_ratio");
     });
-    limits_.push_back({output.name, output.begin, ratio == outputs.end() ? -1 : ratio->begin});
+    auto limit = std::make_unique<Limit>();
+    limit->name = output.name;
+    limit->entry = output.begin;
+    limit->ratio = ratio == outputs.end() ? -1 : ratio->begin;
+    limits_.push_back(std::move(limit));
   }
   if (!limits_.empty()) simulation.addObserver(*this);
 }
 
 void LimitWatch::observe(const Sample& sample) noexcept {
   ++looked_;
-  for (Limit& limit : limits_) {
-    if (limit.ratio >= 0) limit.largest = std::max(limit.largest, sample.y[limit.ratio]);
-    if (sample.y[limit.entry] == 0.0) continue;
-    if (limit.reached++ == 0) limit.first = sample.t;
+  for (const auto& limit : limits_) {
+    if (limit->ratio >= 0) limit->largest = std::max(limit->largest.load(), sample.y[limit->ratio]);  // only this thread writes
+    if (sample.y[limit->entry] == 0.0) continue;
+    if (limit->reached == 0) limit->first = sample.t;
+    ++limit->reached;
   }
+}
+
+std::uint64_t LimitWatch::reached() const noexcept {
+  std::uint64_t sum = 0;
+  for (const auto& limit : limits_) sum += limit->reached;
+  return sum;
 }
 
 std::vector<std::string> LimitWatch::warnings() const {
   std::vector<std::string> list;
-  for (const Limit& limit : limits_) {
+  for (const auto& owned : limits_) {
+    const Limit& limit = *owned;
     if (limit.reached == 0) continue;
     char text[320];
     std::snprintf(text, sizeof text, "%s: the model's limit was reached at %llu of %llu watched instants, first at t = %g s", limit.name.c_str(),
-                  static_cast<unsigned long long>(limit.reached), static_cast<unsigned long long>(looked_), limit.first);
+                  static_cast<unsigned long long>(limit.reached.load()), static_cast<unsigned long long>(looked_.load()), limit.first.load());
     list.push_back(text);
     if (limit.ratio >= 0) {
-      std::snprintf(text, sizeof text, "; largest eccentricity ratio %.4g, where the film force is that of 0.999: the result is not physical there", limit.largest);
+      std::snprintf(text, sizeof text, "; largest eccentricity ratio %.4g, where the film force is that of 0.999: the result is not physical there", limit.largest.load());
       list.back() += text;
     }
   }

@@ -1,4 +1,4 @@
-#include "heerk_rotor/tools/limit_watch.hpp"
+#include "heerk_rotor/analysis/limit_watch.hpp"
 
 #include <gtest/gtest.h>
 
