@@ -32,7 +32,7 @@ inline void add(double factor, const double* from, double* to, Index size) noexc
 
 }  // namespace
 
-SecantMemory::SecantMemory(Index unknowns) : size_(unknowns), pairs_(std::min(unknowns, kPairs)), a_(Vector::Zero(unknowns * pairs_)), b_(a_) {}
+SecantMemory::SecantMemory(Index unknowns) : size_(unknowns), a_(Vector::Zero(unknowns * kPairs)), b_(a_) {}
 
 void SecantMemory::improve(double* residual) const noexcept {
   double share[kPairs];
@@ -43,7 +43,7 @@ void SecantMemory::improve(double* residual) const noexcept {
 void SecantMemory::learn(const double* s, const double* r_new, double* left) noexcept {
   const double square = dot(s, s, size_), along = dot(s, left, size_), denominator = square - along;
   if (!(std::abs(denominator) > kNearlySingular * square)) return;  // also refuses what is not finite
-  if (count_ == pairs_) {
+  if (count_ == kPairs) {
     clear();
     std::copy_n(r_new, size_, left);
     return;
@@ -68,7 +68,7 @@ std::vector<double> SecantMemory::values() const {
 void SecantMemory::restore(const std::vector<double>& values) {
   const std::size_t expected = 1 + 2 * static_cast<std::size_t>(a_.size());
   if (values.size() != expected) throw std::invalid_argument("memory of secants: " + std::to_string(values.size()) + " numbers, expected " + std::to_string(expected));
-  if (!(values[0] >= 0.0 && values[0] <= static_cast<double>(pairs_))) throw std::invalid_argument("memory of secants: " + std::to_string(values[0]) + " pairs, expected at most " + std::to_string(pairs_));
+  if (!(values[0] >= 0.0 && values[0] <= static_cast<double>(kPairs))) throw std::invalid_argument("memory of secants: " + std::to_string(values[0]) + " pairs, expected at most " + std::to_string(kPairs));
   count_ = static_cast<Index>(values[0]);
   std::copy_n(values.begin() + 1, a_.size(), a_.begin());
   std::copy_n(values.begin() + 1 + a_.size(), b_.size(), b_.begin());

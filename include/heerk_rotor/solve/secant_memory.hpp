@@ -34,7 +34,7 @@ class SecantMemory {
   const double* a(Index k) const noexcept { return a_.data() + k * size_; }
   const double* b(Index k) const noexcept { return b_.data() + k * size_; }
 
-  Index size_, pairs_;               // at most as many pairs as unknowns
+  Index size_;
   Vector a_, b_;                     // [pair][unknown]
   Index count_ = 0;
 };
