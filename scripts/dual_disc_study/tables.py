@@ -45,8 +45,7 @@ def table_3(study, checks, printed):
     support = [max(study.errors(cases[("Newmark", STEP), s])[1][2:4]) for s in SPEEDS]
     checks.add("Table 3: at the paper's step the precise method is more accurate than Newmark's (the paper: less)", all(errors[("precise_2", STEP), s] < errors[("Newmark", STEP), s] for s in SPEEDS),
                " / ".join(f"{errors[('Newmark', STEP), s] / errors[('precise_2', STEP), s]:.0f} times" for s in SPEEDS))
-    # A twentieth when Newmark's method solved for all states; with the journal's forces as unknowns it takes less than half of that time.
-    checks.add("Table 3: HEERK4 with 10⁻⁵ s takes less than an eighth of the time of Newmark's method with 5·10⁻⁷ s", max(fast) < 0.125, " / ".join(f"1/{1 / part:.0f}" for part in fast))
+    checks.add("Table 3: HEERK4 with 10⁻⁵ s takes less than a twentieth of the time of Newmark's method with 5·10⁻⁷ s", max(fast) < 0.05, " / ".join(f"1/{1 / part:.0f}" for part in fast))
     header = ["method", "step [s]"]
     for speed in SPEEDS:
         header += [f"{speed} rpm: paper, time [s]", "paper, error [%]", "time [s]", "error [%]"]

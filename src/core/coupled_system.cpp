@@ -111,7 +111,8 @@ bool CoupledSystem::gather(Index number, const Vector& y, const Vector& w, Vecto
   return changed;
 }
 
-void CoupledSystem::evalTogether(const std::vector<OutputCall>& calls, const Index* outputs, Index count, double t, const Vector& x, const Vector& u, double* const* results) noexcept {
+void CoupledSystem::evalTogether(const Index* outputs, Index count, bool in_stage, double t, const Vector& x, const Vector& u, double* const* results) noexcept {
+  const std::vector<OutputCall>& calls = in_stage ? stage_calls_ : calls_;
   const OutputCall& first = calls[static_cast<std::size_t>(outputs[0])];
   if (first.narrow) {
     for (Index k = 0; k < count; ++k) calls[static_cast<std::size_t>(outputs[k])](t, x.data(), u.data(), results[k]);

@@ -6,12 +6,8 @@
 #include <string>
 
 namespace heerk_rotor {
-namespace {
-constexpr double kSmall = 1e-3;  // part of the whole state in which a subsystem (nearly) at rest is measured
-}
-
 NarrowNewmark::NarrowNewmark(const CoupledSystem& system, const std::vector<const ImplicitPiece*>& pieces, double a, double tolerance)
-    : a_(a), z_(Vector::Zero(system.stageSize())), free_z_(z_), start_r_(Vector::Zero(system.stageRemainderSize())), end_r_(start_r_), sum_(start_r_), before_(start_r_), earlier_(start_r_),
+    : a_(a), z_(Vector::Zero(system.stageSize())), free_z_(z_), start_r_(Vector::Zero(system.stageRemainderSize())), end_r_(start_r_), sum_(start_r_), start_(system.stageRemainderSize()),
       scratch_(Vector::Zero(system.stateSize())), iteration_(system.stageRemainderSize(), tolerance) {
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const CoupledSystem::Subsystem& s = system.subsystems()[i];
@@ -77,12 +73,6 @@ void NarrowNewmark::addImplicit(const double* r, const double* base, double* z) 
   }
 }
 
-void NarrowNewmark::predict() noexcept {
-  if (known_ == 0) end_r_ = start_r_;
-  else if (known_ == 1) end_r_ = 2.0 * start_r_ - before_;
-  else end_r_ = 3.0 * (start_r_ - before_) + earlier_;
-}
-
 /// |Q r| of one part.
 double NarrowNewmark::normOfChange(const Part& part, const Vector& r) noexcept {
   if (!part.narrow) {
@@ -104,7 +94,7 @@ double NarrowNewmark::relativeCorrection(const Vector& step) noexcept {
   double worst = 0.0;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const double correction = normOfChange(parts_[i], step);
-    if (correction > 0.0) worst = std::max(worst, correction / std::max(x_norms_[i] + normOfChange(parts_[i], sum_), kSmall * whole));
+    if (correction > 0.0) worst = std::max(worst, correction / std::max(x_norms_[i] + normOfChange(parts_[i], sum_), kAtRest * whole));
   }
   return worst;
 }
@@ -129,7 +119,8 @@ NarrowNewmark::Outcome NarrowNewmark::advance(StageEvaluator& evaluate, double t
   begin(x);
   if (!evaluate.atStartNarrow(z_, start_r_.data())) return Outcome::kNotStarted;
   addImplicit(start_r_.data(), free_z_.data(), free_z_.data());
-  predict();
+  start_.remember(t, start_r_.data());
+  if (!start_.predict(t + 2.0 * a_, end_r_.data())) end_r_ = start_r_;
   const auto residual = [&](const Vector& r, Vector& result) noexcept {
     addImplicit(r.data(), free_z_.data(), z_.data());
     if (!evaluate.atNarrow(t + 2.0 * a_, z_, result.data())) return false;
@@ -139,35 +130,26 @@ NarrowNewmark::Outcome NarrowNewmark::advance(StageEvaluator& evaluate, double t
   const auto size = [&](const Vector& step) noexcept { return relativeCorrection(step); };
   if (iteration_.solve(end_r_, residual, size) != SecantIteration::End::kSolved) return Outcome::kGivenUp;
   finish(x, next);
-  earlier_.swap(before_);
-  before_ = start_r_;
-  known_ = std::min(known_ + 1, 2);
   return Outcome::kDone;
 }
 
 void NarrowNewmark::forget() noexcept {
   iteration_.memory().clear();
-  known_ = 0;
+  start_.forget();
 }
 
 std::vector<double> NarrowNewmark::memory() const {
-  std::vector<double> values{static_cast<double>(known_)};
-  for (const Vector* r : {&before_, &earlier_}) values.insert(values.end(), r->begin(), r->end());
-  const std::vector<double> secants = iteration_.memory().values();
-  values.insert(values.end(), secants.begin(), secants.end());
+  std::vector<double> values = iteration_.memory().values();
+  start_.appendTo(values);
   return values;
 }
 
 void NarrowNewmark::restoreMemory(const std::vector<double>& memory) {
   const std::size_t expected = this->memory().size();
-  if (memory.size() != expected || !(memory[0] >= 0.0 && memory[0] <= 2.0)) throw std::invalid_argument("Newmark's memory in narrow form: " + std::to_string(memory.size()) + " numbers, expected " + std::to_string(expected));
-  auto value = memory.begin();
-  known_ = static_cast<int>(*value++);
-  for (Vector* r : {&before_, &earlier_}) {
-    std::copy_n(value, r->size(), r->begin());
-    value += r->size();
-  }
-  iteration_.memory().restore({value, memory.end()});
+  if (memory.size() != expected) throw std::invalid_argument("Newmark's memory in narrow form: " + std::to_string(memory.size()) + " numbers, expected " + std::to_string(expected));
+  auto value = memory.begin() + static_cast<std::ptrdiff_t>(iteration_.memory().values().size());
+  iteration_.memory().restore({memory.begin(), value});
+  start_.restore(value);
 }
 
 }  // namespace heerk_rotor

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "heerk_rotor/integrate/step_method.hpp"
+#include "heerk_rotor/solve/start_values.hpp"
 #include "implicit_pieces.hpp"
 #include "narrow_stages.hpp"
 #include "secant_iteration.hpp"
@@ -44,7 +45,6 @@ class NarrowNewmark {
 
   void begin(const Vector& x) noexcept;
   void addImplicit(const double* r, const double* base, double* z) noexcept;
-  void predict() noexcept;
   double normOfChange(const Part& part, const Vector& r) noexcept;
   double relativeCorrection(const Vector& step) noexcept;
   void finish(const Vector& x, Vector& next) noexcept;
@@ -54,8 +54,7 @@ class NarrowNewmark {
   std::vector<double> x_norms_;      // of the parts at t_n
   Vector z_, free_z_;                // z as it is asked for; what x_n and r_n decide of z_{n+1}
   Vector start_r_, end_r_, sum_;     // r_n, r_{n+1}, their sum
-  Vector before_, earlier_;          // r_{n-1}, r_{n-2}
-  int known_ = 0;                    // how many of these two
+  StartValues start_;                // of r_{n+1}
   Vector scratch_;                   // (largest part)
   SecantIteration iteration_;
 };

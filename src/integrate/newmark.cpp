@@ -72,7 +72,6 @@ class Newmark final : public StepMethod {
   }
 
  private:
-  static constexpr double kSmall = 1e-3;
   struct Piece {
     Index begin, size;  // states of the subsystem
     std::unique_ptr<ImplicitPiece> of;
@@ -108,7 +107,7 @@ class Newmark final : public StepMethod {
   /// Of the state at the end of the step by a change of a; the worst subsystem. One that is (nearly) at rest is measured in a small part of the whole.
   double relativeCorrection(const Vector& x, const Vector& step) const noexcept {
     double worst = 0.0;
-    const double floor = kSmall * (x.norm() + h_ * last_.norm());
+    const double floor = kAtRest * (x.norm() + h_ * last_.norm());
     for (const Piece& piece : pieces_) {
       const double correction = 0.5 * h_ * step.segment(piece.begin, piece.size).norm();
       const double magnitude = x.segment(piece.begin, piece.size).norm() + h_ * last_.segment(piece.begin, piece.size).norm();

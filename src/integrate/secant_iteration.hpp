@@ -6,6 +6,9 @@
 
 namespace heerk_rotor {
 
+/// Part of the whole state in which corrections of a subsystem (nearly) at rest are measured.
+inline constexpr double kAtRest = 1e-3;
+
 /// Solves r(a) = 0 for residuals that are a change away from -a: Newton's method with H = I and what earlier steps taught (SecantMemory), which
 /// is kept from solve to solve. Ends when a correction is below the tolerance in the caller's measure.
 class SecantIteration {

@@ -6,27 +6,14 @@
 #include <vector>
 
 #include "blade_dynamics.hpp"
+#include "fe_rotor_ports.hpp"
 #include "heerk_rotor/core/branch_free_math.hpp"
-#include "heerk_rotor/models/hub_motion.hpp"
 #include "model_factories.hpp"
 
 namespace heerk_rotor {
 namespace {
 
 constexpr double kTwoPi = 6.283185307179586476925;
-constexpr double kGravity = 9.80665;  // [m/s^2], of the mount that is taken when none is connected
-
-enum Output_ {
-  kSectionPosition, kSectionVelocity, kSectionAxes, kSectionPitch, kSectionPitchRate, kSectionAcceleration, kRotorForce, kTiltingMoment, kBladeReaction, kRootLoad,
-  kLag, kLagRate, kFlap, kFlapRate, kFlapAcceleration, kTipTwist, kMomentum, kAngularMomentum, kEnergy, kDissipation
-};
-
-std::vector<std::string> perBlade(const std::string& name, const std::vector<std::string>& components, int blades) {
-  std::vector<std::string> names;
-  for (int k = 1; k <= blades; ++k)
-    for (const std::string& component : components) names.push_back(name + "_" + component + "_" + std::to_string(k));
-  return names;
-}
 
 /// L: lanes, at least the number of blades.
 template <int L>
@@ -38,10 +25,9 @@ class FeRotor : public SubsystemModel {
   explicit FeRotor(const FeRotorParameters& parameters) : p_(parameters), blades_(parameters.sections.blades), dynamics_(parameters) {
     // Offsets of the inputs in u.
     Index begin = 0;
+    std::size_t number = 0;
     for (const InputPort& port : inputs()) {
-      offsets_[port.name == "hub_motion" ? kHubMotion : port.name == "mount_velocity" ? kMountVelocity : port.name == "pitch" ? kPitch
-               : port.name == "pitch_rate" ? kPitchRate : port.name == "section_loads" ? kLoads : port.name == "hub_acceleration" ? kHubAcceleration
-               : port.name == "mount_acceleration" ? kMountAcceleration : port.name == "pitch_acceleration" ? kPitchAcceleration : kHubGravity] = begin;
+      offsets_[number++] = begin;
       begin += port.size;
     }
     for (int k = 0; k < L; ++k) {
@@ -56,66 +42,9 @@ class FeRotor : public SubsystemModel {
     axes_key_.resize(static_cast<std::size_t>(offsets_[kLoads]));
   }
 
-  std::vector<State> states() const override {
-    std::vector<State> list;
-    const auto& names = dynamics_.coefficients().state_names;
-    for (const std::string& name : names) list.push_back({name, "kg^0.5 m", "modal coordinate of mode and blade (mode shapes of unit modal mass)"});
-    for (const std::string& name : names) list.push_back({name.substr(0, name.find('_')) + "_rate" + name.substr(name.find('_')), "kg^0.5 m/s", "rate of the modal coordinate"});
-    return list;
-  }
-
-  std::vector<InputPort> inputs() const override {
-    const Index n = blades_;
-    return {hubMotionInput(),
-            {"mount_velocity", 6, "m/s, rad/s", "velocity of the hub and angular velocity of the mount, in hub_link", Unconnected::kDefault, {},
-             {"mount_velocity_x", "mount_velocity_y", "mount_velocity_z", "mount_rate_x", "mount_rate_y", "mount_rate_z"}},
-            {"pitch", n, "rad", "pitch of each blade, nose up positive", Unconnected::kDefault},
-            {"pitch_rate", n, "rad/s", "time derivative of the pitch", Unconnected::kDefault},
-            {"section_loads", p_.sections.portSize(4), "N, N m", "airloads of each section: force in rotating blade axes, pitching moment about the elastic axis, nose up",
-             Unconnected::kDefault, {}, sectionEntryNames("section_load", {"x", "y", "z", "pitching"}, p_.sections)},
-            {"hub_acceleration", 2, "rad/s^2", "angular acceleration of hub and drive relative to the mount", Unconnected::kDefault, {}, {"hub", "drive"}},
-            {"mount_acceleration", 6, "m/s^2, rad/s^2", "specific force at the hub (acceleration minus gravity) and angular acceleration of the mount, in hub_link",
-             Unconnected::kDefault, {0.0, 0.0, kGravity, 0.0, 0.0, 0.0},
-             {"specific_force_x", "specific_force_y", "specific_force_z", "mount_acceleration_x", "mount_acceleration_y", "mount_acceleration_z"}},
-            {"pitch_acceleration", n, "rad/s^2", "second time derivative of the pitch", Unconnected::kDefault},
-            {"hub_gravity", 3, "m/s^2", "gravity in hub_link", Unconnected::kDefault, {0.0, 0.0, -kGravity}, {"gravity_x", "gravity_y", "gravity_z"}, {}, {}, true}};
-  }
-
-  std::vector<OutputPort> outputs() const override {
-    const Index n = blades_;
-    const std::vector<std::string> shape{"pitch"}, motion{"hub_motion", "mount_velocity", "pitch", "pitch_rate"};
-    std::vector<std::string> dynamics = motion;
-    for (const char* port : {"section_loads", "hub_acceleration", "mount_acceleration", "pitch_acceleration"}) dynamics.push_back(port);
-    std::vector<std::string> acceleration = dynamics;
-    acceleration.push_back("hub_gravity");
-    const RotorSections& s = p_.sections;
-    const double tip_speed = p_.rotor_speed * s.radius;
-    return {{"section_position", s.portSize(3), "m", "elastic axis at each section, in rotating blade axes", shape, 1.0, sectionEntryNames("position", {"x", "y", "z"}, s)},
-            {"section_velocity", s.portSize(3), "m/s", "velocity of the elastic axis relative to the earth, in rotating blade axes", motion, tip_speed,
-             sectionEntryNames("velocity", {"x", "y", "z"}, s)},
-            {"section_axes", s.portSize(6), "-", "unpitched section axes, in rotating blade axes: t toward the leading edge, n normal upwards", shape, 1.0,
-             sectionEntryNames("axes", {"t_x", "t_y", "t_z", "n_x", "n_y", "n_z"}, s)},
-            {"section_pitch", s.portSize(1), "rad", "pitch of each section: control, built-in and elastic twist, nose up positive", shape, 0.1, sectionEntryNames("section_pitch", {""}, s)},
-            {"section_pitch_rate", s.portSize(1), "rad/s", "time derivative of section_pitch", {"pitch_rate"}, 1.0, sectionEntryNames("section_pitch_rate", {""}, s)},
-            {"section_acceleration", s.portSize(3), "m/s^2", "acceleration of the elastic axis relative to the earth, in rotating blade axes", acceleration, tip_speed * p_.rotor_speed,
-             sectionEntryNames("acceleration", {"x", "y", "z"}, s)},
-            {"rotor_force", 3, "N", "force of the rotor on the hub, in hub_link", dynamics, 1e4, {"rotor_force_x", "rotor_force_y", "rotor_force_z"}},
-            {"tilting_moment", 2, "N m", "rolling and pitching moment of the rotor on the hub, in hub_link", dynamics, 1e4, {"tilting_moment_x", "tilting_moment_y"}},
-            {"blade_reaction", 1, "N m", "moment of the blades on the hub about +z", dynamics, 1e4},
-            {"root_load", 6 * n, "N, N m", "force and moment of each blade on the hub about its centre, in rotating blade axes", dynamics, 1e4,
-             perBlade("root", {"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"}, blades_)},
-            {"lag", n, "rad", "in-plane displacement of each blade tip over R, lead positive", shape, 0.01, {}, true},
-            {"lag_rate", n, "rad/s", "time derivative of lag", {"pitch", "pitch_rate"}, 1.0, {}, true},
-            {"flap", n, "rad", "height of each blade tip above the hub plane over R, precone included", shape, 0.01, {}, true},
-            {"flap_rate", n, "rad/s", "time derivative of flap", {"pitch", "pitch_rate"}, 1.0, {}, true},
-            {"flap_acceleration", n, "rad/s^2", "second time derivative of flap", dynamics, 10.0},
-            {"tip_twist", n, "rad", "elastic twist of each blade tip, nose up positive", {}, 0.01, {}, true},
-            {"blade_momentum", 3, "N s", "linear momentum of all blades relative to the earth, in hub_link", motion, 100.0, {"blade_momentum_x", "blade_momentum_y", "blade_momentum_z"}},
-            {"angular_momentum", 3, "N m s", "angular momentum of all blades relative to the earth about the hub, in hub_link", motion, 1e4,
-             {"angular_momentum_x", "angular_momentum_y", "angular_momentum_z"}},
-            {"blade_energy", 1, "J", "kinetic and elastic energy of all blades", motion, 1e5},
-            {"structural_dissipation", 1, "W", "power lost in structural damping and hinge dampers", {}, 1e2}};
-  }
+  std::vector<State> states() const override { return feRotorStates(dynamics_.coefficients().state_names); }
+  std::vector<InputPort> inputs() const override { return feRotorInputs(p_.sections); }
+  std::vector<OutputPort> outputs() const override { return feRotorOutputs(p_); }
 
   StiffPart stiffPart() const override {
     const BladeCoefficients& c = dynamics_.coefficients();
@@ -177,12 +106,10 @@ class FeRotor : public SubsystemModel {
   }
 
  private:
-  enum Input_ { kHubMotion, kMountVelocity, kPitch, kPitchRate, kLoads, kHubAcceleration, kMountAcceleration, kPitchAcceleration, kHubGravity, kInputs };
-
   /// cos and sin of multiples of a quarter turn without rounding, so that opposite blades cancel exactly.
   static double exactAtQuarters(double value) { return std::abs(value) < 1e-15 ? 0.0 : std::abs(std::abs(value) - 1.0) < 1e-15 ? std::copysign(1.0, value) : value; }
 
-  const double* input(const In& u, Input_ port) const noexcept { return u.data() + offsets_[port]; }
+  const double* input(const In& u, FeRotorInput port) const noexcept { return u.data() + offsets_[port]; }
 
   /// The axes depend on hub_motion, mount_velocity, pitch and pitch_rate, which begin u in this order. They are made anew only when one of
   /// these differs bitwise from last time: all ports of an instant share them. What a port does not feed through (shape: all but the pitch)
@@ -379,7 +306,7 @@ class FeRotor : public SubsystemModel {
   FeRotorParameters p_;
   int blades_;
   BladeDynamics<L> dynamics_;
-  Index offsets_[kInputs] = {};
+  Index offsets_[kFeRotorInputs] = {};
   Vec blade_sine_{}, blade_cosine_{};
   double precone_sine_;
   BladeAxes<L> axes_{};                // of axes_key_

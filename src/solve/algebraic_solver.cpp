@@ -18,7 +18,7 @@ struct AlgebraicSolver::Implementation {
 
   /// One thing to do in a solve. An input is taken over before anything reads it in this solve, so nobody asks whether it changed.
   struct Action {
-    enum class Kind { kCopy1, kCopy2, kCopy3, kCopy4, kCopy, kFetch, kEvaluate, kEvaluateTogether, kSolveLoop };
+    enum class Kind { kCopy, kFetch, kEvaluate, kEvaluateTogether, kSolveLoop };
     Kind kind;
     Index number;                 // kFetch: input; kSolveLoop: loop; kEvaluate...: first of `ports` and `results`
     Index size = 0;               // of a copy; kEvaluateTogether: ports, all of one subsystem
@@ -27,7 +27,7 @@ struct AlgebraicSolver::Implementation {
     CoupledSystem::OutputCall call = {};   // kEvaluate
   };
 
-  static Action copy(const double* from, Index size, double* to) { return {size <= 4 ? static_cast<Action::Kind>(static_cast<int>(Action::Kind::kCopy1) + size - 1) : Action::Kind::kCopy, 0, size, from, to}; }
+  static Action copy(const double* from, Index size, double* to) { return {Action::Kind::kCopy, 0, size, from, to}; }
 
   PortValues values;
   std::vector<LoopSolver> loops;
@@ -110,11 +110,6 @@ struct AlgebraicSolver::Implementation {
     SolveReport worst;
     for (const Action& action : list) {
       switch (action.kind) {
-        // Number by number, as they were written just before: a vector load would wait until all of them have left the store buffer.
-        case Action::Kind::kCopy4: action.to[3] = action.from[3]; [[fallthrough]];
-        case Action::Kind::kCopy3: action.to[2] = action.from[2]; [[fallthrough]];
-        case Action::Kind::kCopy2: action.to[1] = action.from[1]; [[fallthrough]];
-        case Action::Kind::kCopy1: action.to[0] = action.from[0]; break;
         case Action::Kind::kCopy: copyShort(action.from, action.size, action.to); break;
         case Action::Kind::kFetch: values.system.fetch(action.number, values.y, w, values.u); break;
         case Action::Kind::kEvaluate:

@@ -8,7 +8,7 @@
 namespace heerk_rotor {
 
 /// The inverse of a small matrix, tabulated whenever it is factorised: for the few unknowns of most loops a product in registers takes a fraction of
-/// the time that following the indices of sparse factors takes, and simplified Newton forgives its rounding.
+/// the time that following the indices of sparse factors takes (and less than a matrix product of run-time size), and simplified Newton forgives its rounding.
 class ExplicitInverse {
  public:
   static constexpr Index kLargest = 32;

@@ -6,8 +6,8 @@
 #include "heerk_rotor/solve/evaluation_plan.hpp"
 #include "heerk_rotor/solve/secant_memory.hpp"
 #include "heerk_rotor/solve/sparse_lu.hpp"
+#include "heerk_rotor/solve/start_values.hpp"
 #include "port_values.hpp"
-#include "start_values.hpp"
 
 namespace heerk_rotor {
 

@@ -96,7 +96,7 @@ struct PortValues {
   /// Ports of one subsystem, at x and u. At most kTogether.
   void evaluateInto(const Index* ports, Index count, double t, const Vector& x, double* const* results) noexcept {
     for (Index k = 0; k < count; ++k) ++evaluations[static_cast<std::size_t>(ports[k])];
-    in_stage ? system.evalStageOutputs(ports, count, t, x, u, results) : system.evalOutputs(ports, count, t, x, u, results);
+    system.evalTogether(ports, count, in_stage, t, x, u, results);
   }
 
  private:

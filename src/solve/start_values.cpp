@@ -1,7 +1,9 @@
-#include "start_values.hpp"
+#include "heerk_rotor/solve/start_values.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace heerk_rotor {
 namespace {
@@ -68,6 +70,7 @@ void StartValues::appendTo(std::vector<double>& cache) const {
 }
 
 void StartValues::restore(std::vector<double>::const_iterator& value) {
+  if (!(*value >= 0.0 && *value <= kInstants)) throw std::invalid_argument("start values of " + std::to_string(*value) + " instants, expected at most " + std::to_string(kInstants));
   known_ = static_cast<int>(*value++);
   for (int k = 0; k < kInstants; ++k) {
     slot_[k] = k;

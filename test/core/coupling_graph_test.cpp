@@ -121,5 +121,21 @@ TEST(CoupledSystem, signalsAreFoundAndMisspeltOnesHinted) {
   }
 }
 
+TEST(CoupledSystem, evaluatesAModelThatTookThePlaceOfAnother) {
+  CouplingGraph graph;
+  graph.add("aero", source().make());
+  graph.add("hub", sink().make());
+  graph.connect("aero.load", "hub.load");
+  CoupledSystem system = std::move(graph).build();
+  const auto twice = [](double, const In&, const In& u, Out xdot) { xdot[0] = 2.0 * u[0]; };
+  const auto old = system.exchangeModel(1, FunctionModel().state("x", 0.0).input("load", 3, "N").input("moment", 1, "N m", Unconnected::kDefault).derivatives(twice).make());
+  Vector u = Vector::Zero(system.inputSize()), xdot = Vector::Zero(1);
+  u[0] = 3.0;
+  system.evalRemainder(0.0, system.initialState(), u, true, xdot.data());
+  EXPECT_EQ(xdot[0], 6.0);
+  old->evalDerivatives(0.0, In(u.data(), 0), In(u.data(), 4), view(xdot));
+  EXPECT_EQ(xdot[0], 3.0);
+}
+
 }  // namespace
 }  // namespace heerk_rotor

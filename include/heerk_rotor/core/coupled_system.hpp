@@ -122,9 +122,9 @@ class CoupledSystem {
   /// Evaluates one output port into `result` (its entries only).
   void evalOutput(Index output, double t, const Vector& x, const Vector& u, double* result) noexcept { calls_[static_cast<std::size_t>(output)](t, x.data(), u.data(), result); }
 
-  /// Evaluates several output ports of one subsystem; values of port outputs[k] begin at results[k]. At most kTogether.
+  /// Evaluates several output ports of one subsystem, at most kTogether; values of port outputs[k] begin at results[k]. in_stage: as for outputCall().
   static constexpr Index kTogether = 8;
-  void evalOutputs(const Index* outputs, Index count, double t, const Vector& x, const Vector& u, double* const* results) noexcept { evalTogether(calls_, outputs, count, t, x, u, results); }
+  void evalTogether(const Index* outputs, Index count, bool in_stage, double t, const Vector& x, const Vector& u, double* const* results) noexcept;
 
   /// remainder = f(t, x, u) - S x of all subsystems, or the complete f when `complete` is set.
   void evalRemainder(double t, const Vector& x, const Vector& u, bool complete, double* remainder) noexcept;
@@ -132,12 +132,7 @@ class CoupledSystem {
   /// Takes the narrow form of every model all of whose `needed` outputs (one flag per output) can be evaluated from it.
   void chooseNarrowForms(const std::vector<char>& needed);
 
-  /// evalOutput() and evalOutputs() of needed outputs, and all remainders, in a stage: z (stageSize()), r (stageRemainderSize()). The latter is false where some model
-  /// has no narrow form with these inputs.
-  void evalStageOutput(Index output, double t, const Vector& z, const Vector& u, double* result) noexcept { stage_calls_[static_cast<std::size_t>(output)](t, z.data(), u.data(), result); }
-  void evalStageOutputs(const Index* outputs, Index count, double t, const Vector& z, const Vector& u, double* const* results) noexcept {
-    evalTogether(stage_calls_, outputs, count, t, z, u, results);
-  }
+  /// All remainders in a stage, from z (stageSize()) into r (stageRemainderSize()). False where some model has no narrow form with these inputs.
   bool evalStageRemainder(double t, const Vector& z, const Vector& u, double* r) noexcept;
 
  private:
@@ -161,7 +156,6 @@ class CoupledSystem {
   };
 
   void layOutStages();
-  static void evalTogether(const std::vector<OutputCall>& calls, const Index* outputs, Index count, double t, const Vector& x, const Vector& u, double* const* results) noexcept;
   const double* firstSource(const Input& input, const Vector& y, const Vector& w) const noexcept;
 
   std::vector<Subsystem> subsystems_;

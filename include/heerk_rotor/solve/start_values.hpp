@@ -5,7 +5,7 @@
 
 namespace heerk_rotor {
 
-/// Where the unknowns of a loop are likely to be at an instant: what was found there before (an earlier stage of the step, or the last one of the step
+/// Where the unknowns of a solve are likely to be at an instant: what was found there before (by an earlier stage of the step, or the last one of the step
 /// before), otherwise on the parabola through the last three instants.
 class StartValues {
  public:
@@ -19,7 +19,7 @@ class StartValues {
   /// The solution at t.
   void remember(double t, const double* values) noexcept;
 
-  /// Everything it holds, for a checkpoint: so many numbers, whatever is known.
+  /// Everything it holds, for a checkpoint: so many numbers, whatever is known. restore() throws std::invalid_argument when they cannot be that.
   void appendTo(std::vector<double>& cache) const;
   void restore(std::vector<double>::const_iterator& value);
 
