@@ -256,14 +256,17 @@ class DualDiscByHand {
   }
 
  private:
-  static constexpr double kClearance = 1.6e-4, kStaticEccentricityY = -0.2;
+  static constexpr double kClearance = 1.6e-4, kStaticEccentricityY = -0.2, kDampingInS = 1034.0;
   static constexpr int kPairs = 37, kStates = 2 * kPairs, kPitch = 40, kBlocks = 2 * kPitch / 4;
   using Four = Eigen::Array4d;
   using Narrow = Eigen::Matrix<double, 4, 2>;
 
   static constexpr Index place(Index state) { return state < kPairs ? state : state - kPairs + kPitch; }
   static Four load(const double* from) { return Eigen::Map<const Four, Eigen::Aligned32>(from); }
-  SqueezeFilm::Force force(const Four& z) const noexcept { return film_.force(z[0], kStaticEccentricityY + z[1], z[2], z[3]); }
+  SqueezeFilm::Force force(const Four& z) const noexcept {
+    const SqueezeFilm::Force f = film_.force(z[0], kStaticEccentricityY + z[1], z[2], z[3]);
+    return {f.x + kDampingInS * z[2], f.y + kDampingInS * z[3]};
+  }
 
   alignas(64) double x_[2 * kPitch] = {};        // first coordinates of the pairs, then second ones, each padded
   alignas(64) double free_[kBlocks][8][4] = {};  // C e^{hS/2}, C e^{hS} by blocks of four states

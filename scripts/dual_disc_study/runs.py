@@ -27,7 +27,7 @@ class Case:
     method: str
     step: float                         # [s]
     tolerance: float = CONVERGED        # of Newmark
-    moved: float = 0.0                  # film damping moved into S [N s/m]
+    moved: float = 0.0                  # film damping in S [N s/m]; as shipped FILM_DAMPING
     signals: tuple = DISC_1
     duration: float = END               # [s]
     grid: float = GRID                  # instants that are recorded, none if 0 [s]

@@ -76,7 +76,7 @@ def step_limits(study, folder, checks):
 
 The explicit film force outside S drives HEERK3 unstable in windows; the last good and the first bad step of the first one: {"; ".join(text)}. It lies
 around h omega = pi of the mode at 2.97·10⁵ rad/s (1.06·10⁻⁵ s), which the centred film would damp with 1300 1/s. With
-`shaft.linearised_film_damping` a damper at the journal goes into S and the remainder gives it back: 1034 N s/m is 1.5 c0, c0 = k pi/2 = 689 N s/m the
+`shaft.linearised_film_damping` a damper at the journal goes into S and the remainder gives it back: the shipped 1034 N s/m is 1.5 c0, c0 = k pi/2 = 689 N s/m the
 damping of the centred film (k = mu R L³/c³ = 438.7 N s/m). No window is left, and errors fall, at 10⁻⁴ s those of HEERK4 by 40 at 5000 rpm and by 5 at 40000 rpm; half as much again,
 1551 N s/m, is stable too but less accurate. HEERK4 is stable without.
 
