@@ -53,8 +53,7 @@ Simulation::Simulation(CoupledSystem system, const StepOptions& options) : syste
 
 Simulation::~Simulation() = default;
 
-bool Simulation::solveStage(double t, const Vector& x, const Vector& w) noexcept {
-  const SolveReport report = solver_->solve(t, x, w);
+bool Simulation::accept(const SolveReport& report, double t) noexcept {
   if (report.status == SolveStatus::kConverged) return true;
   failure_report_ = report;
   status_ = StepStatus::kSolverStalled;
@@ -90,7 +89,7 @@ void Simulation::removeObserver(Observer& observer) { observers_.erase(std::remo
 void Simulation::atStart(bool complete, double* f) noexcept { system_.evalRemainder(modelTime(), x_, solver_->u(), complete, f); }
 
 bool Simulation::at(double t, const Vector& x, bool complete, double* f) noexcept {
-  if (!stateIsFinite(x, t) || !solveStage(t, x, w_)) return false;
+  if (!stateIsFinite(x, t) || !accept(solver_->solveWithin(t, x, w_), t)) return false;
   system_.evalRemainder(t, x, solver_->u(), complete, f);
   return true;
 }
@@ -106,7 +105,7 @@ StepStatus Simulation::observe(const Vector& command) noexcept {
   if (status_ != StepStatus::kOk) return status_;
   if (!solved_ || std::memcmp(w_.data(), command.data(), static_cast<std::size_t>(w_.size()) * sizeof(double)) != 0) {
     w_ = command;
-    if (!solveStage(modelTime(), x_, w_)) return status_;
+    if (!accept(solver_->solve(modelTime(), x_, w_), modelTime())) return status_;
     solved_ = true;
   }
   bool observed = false;

@@ -80,6 +80,13 @@ struct BladeCoefficients {
 
   std::vector<double> hub_rows;                   // [modal entry][kHubRows][copy]: modal loads of unit hub accelerations, undeformed
   std::vector<double> hub_row_products;           // [kHubPairs][copy]: their sums of products over the modes
+  /// A mast that twists accelerates the blades: b twist'' in each modal equation, b the hub row of a turn about the hub's axis. Modes slower than the
+  /// mast (FeRotorParameters::absolute_below) have p = q + b twist as state, in effect their motion relative to the drive, as the lag rotor has in its
+  /// absolute-lag form. Then they feel omega^2 b twist instead, a smaller force, and the mast's S can take the stiffness with which they hold it.
+  bool absolute;                                  // there are such modes
+  std::vector<double> turn_share;                 // [modal entry][copy]: b, 0 where the state is q
+  double turn_stiffness, turn_damping;            // sum of b^2 omega^2 [N m/rad] and of b^2 c [N m s/rad] over those modes of all blades
+
   std::vector<double> hinge_damping;              // [2][copy]: of the root slopes in v and in w
   std::vector<double> rigid;                      // [10][copy]: mass, first moment x y z, inertia xx yy zz xy xz yz
   double nominal_mean, nominal_spin, nominal_lead_v;  // contained in S: Omega^2 cos^2 p, Omega^2 sin^2 p and Omega^2 e0

@@ -20,8 +20,8 @@ class BladeDeformation {
 
   const BladeCoefficients& coefficients() const { return c_; }
 
-  /// x: modal q, then q', [mode][blade]. Returns whether anything changed.
-  bool deform(const double* x) noexcept;
+  /// x: modal q, then q', [mode][blade], p and p' for modes that count from the drive; turn: twist of the mast and its rate. Returns whether anything changed.
+  bool deform(const double* x, const double (&turn)[2]) noexcept;
 
   /// Displacements, and their rates, at section j (sections: tip).
   SectionMotion<L> displacement(int j) const noexcept {
@@ -77,6 +77,7 @@ class BladeDeformation {
 
   BladeCoefficients c_;
   std::vector<double> state_key_;
+  double turn_key_[2] = {};
   bool state_valid_ = false;
   std::vector<Pair> q_;                         // (modal) q, q'
   std::vector<Pair> d_;                         // (nodal) d, d'

@@ -25,7 +25,8 @@ struct HubAcceleration {
 ///   force  F = m a + w' x S + 2 w x S' + w x (w x S) + S''          that the hub exerts on the blade, less the airloads
 ///   moment N = J w' + S x a + J' w + w x (J w + h) + h'
 /// J, S and h are the very forms that the beam's equations of motion (BladeMatrices) are made of, so that linear and angular
-/// momentum and energy balance exactly, whatever the hub does. Frame of all: B. State: modal q, then q', [mode][blade].
+/// momentum and energy balance exactly, whatever the hub does. Frame of all: B. State: modal q, then q', [mode][blade],
+/// relative to the drive for slow modes (BladeCoefficients).
 ///
 /// F and N are linear in the accelerations A = (a, w') of the hub: with the modal loads S_q and h_q' of unit accelerations ("hub rows"),
 /// q'' = Q' - rows A, and what q'' carries of F and N is rows'q'' = rows'Q' - (rows'rows) A. So the 6 x 6 matrices rows'rows serve every
@@ -45,8 +46,8 @@ class BladeDynamics {
 
   const BladeCoefficients& coefficients() const { return deformation_.coefficients(); }
 
-  /// Level 1. x: state.
-  void deform(const double* x) noexcept;
+  /// Level 1. x: state; turn: twist of the mast and its rate.
+  void deform(const double* x, const double (&turn)[2]) noexcept;
   /// Displacements, and their rates, at section j (sections: tip).
   SectionMotion<L> displacement(int j) const noexcept { return deformation_.displacement(j); }
   SectionMotion<L> displacementRate(int j) const noexcept { return deformation_.displacementRate(j); }

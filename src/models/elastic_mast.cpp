@@ -1,7 +1,9 @@
 #include "heerk_rotor/models/elastic_mast.hpp"
 
 #include <cmath>
+#include <stdexcept>
 
+#include "heerk_rotor/models/fe_rotor.hpp"
 #include "model_factories.hpp"
 
 namespace heerk_rotor {
@@ -73,6 +75,24 @@ bool checkMastInertia(Section& section, double kappa) {
   return false;
 }
 
+/// The slow modes of elastic blades as part of what the twist feels at nominal speed.
+void addElasticBlades(MastLoad& load, const BuildContext& context) {
+  const double frequency = twistFrequency(context);
+  if (frequency == 0.0) return;
+  Problems reported_by_the_rotor_itself;
+  Section rotor(context.configuration, "subsystems." + context.onlySubsystemOfType("fe_rotor"), reported_by_the_rotor_itself);
+  rotor.word("type", "");
+  FeRotorParameters parameters = readFeRotorParameters(rotor, context.simulation.rotor_speed);
+  if (!reported_by_the_rotor_itself.empty()) return;
+  parameters.absolute_below = frequency;
+  try {
+    const TwistLoad blades = twistLoad(parameters);
+    load.stiffness += blades.stiffness;
+    load.damping += blades.damping;
+  } catch (const std::exception&) {  // no modes, as the rotor itself reports
+  }
+}
+
 }  // namespace
 
 Made makeElasticMast(Section& section, const BuildContext& context) {
@@ -80,8 +100,9 @@ Made makeElasticMast(Section& section, const BuildContext& context) {
   p.stiffness = section.number("stiffness", p.stiffness, "N m/rad", positive());
   p.damping = section.number("damping", p.damping, "N m s/rad", nonNegative());
   p.rotor_speed = context.simulation.rotor_speed;
-  const HubOnMast hub = readHubOnMast(section, context);
+  HubOnMast hub = readHubOnMast(section, context);
   section.finish();
+  if (hub.kind == MastHub::kOwn) addElasticBlades(hub.load, context);
   if (!checkMastInertia(section, hub.kappa)) return nullptr;
   return std::make_unique<ElasticMast>(p, hub.load, hub.kind);
 }

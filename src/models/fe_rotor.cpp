@@ -1,5 +1,6 @@
 #include "heerk_rotor/models/fe_rotor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -40,6 +41,11 @@ class FeRotor : public SubsystemModel {
     axes_.precone_cosine = sameLanes<L>(std::cos(parameters.precone));
     axes_.pitch_cosine = sameLanes<L>(1.0);
     axes_key_.resize(static_cast<std::size_t>(offsets_[kLoads]));
+    const BladeCoefficients& c = dynamics_.coefficients();
+    for (std::size_t entry = 0; entry < c.mode_order.size(); ++entry)
+      for (int k = 0; k < blades_; ++k)
+        if (const double share = c.turn_share[entry * static_cast<std::size_t>(c.copies) + static_cast<std::size_t>(c.copies == 1 ? 0 : k)]; share != 0.0)
+          absolute_.push_back({c.mode_order[entry] * blades_ + k, share});
   }
 
   std::vector<State> states() const override { return feRotorStates(dynamics_.coefficients().state_names); }
@@ -49,7 +55,7 @@ class FeRotor : public SubsystemModel {
   StiffPart stiffPart() const override {
     const BladeCoefficients& c = dynamics_.coefficients();
     return ModalStiff{Eigen::Map<const Vector>(c.omega.data(), static_cast<Index>(c.omega.size())),
-                      Eigen::Map<const Vector>(c.damping.data(), static_cast<Index>(c.damping.size()))};
+                      Eigen::Map<const Vector>(c.damping.data(), static_cast<Index>(c.damping.size())), true};
   }
 
   void evalOutput(Index port, double t, const In& x, const In& u, Out y) noexcept override {
@@ -58,8 +64,7 @@ class FeRotor : public SubsystemModel {
   }
 
   void evalOutputs(const PortValue* values, Index count, double, const In& x, const In& u) noexcept override {
-    if (!known_) dynamics_.deform(x.data());
-    known_ = held_;
+    deform(x, u);
     bool accelerated = false;
     for (Index k = 0; k < count; ++k) {
       const Index port = values[k].port;
@@ -87,12 +92,21 @@ class FeRotor : public SubsystemModel {
   bool providesRemainder() const override { return true; }
 
   void evalRemainder(double, const In& x, const In& u, Out remainder) noexcept override {
-    dynamics_.deform(x.data());
+    known_ = false;
+    deform(x, u);
     accelerate(u);
     const Index n = static_cast<Index>(dynamics_.coefficients().modes) * blades_;
     remainder.head(n).setZero();
     const Vec* const modal = dynamics_.remainder();
     for (int i = 0; i < dynamics_.coefficients().modes; ++i) storeLanes<L>(modal[i], blades_, remainder.data() + n + i * blades_);
+    if (absolute_.empty()) return;
+    // p'' = q'' + b twist''; S makes -omega^2 p - c p' of it.
+    const double *motion = input(u, kHubMotion), *acceleration = input(u, kHubAcceleration);
+    const BladeCoefficients& c = dynamics_.coefficients();
+    for (const Absolute& a : absolute_) {
+      const double omega = c.omega[static_cast<std::size_t>(a.state)], damping = c.damping[static_cast<std::size_t>(a.state)];
+      remainder[n + a.state] += a.share * (omega * omega * motion[2] + damping * motion[3] + acceleration[0] - acceleration[1]);
+    }
   }
 
   void evalDerivatives(double t, const In& x, const In& u, Out xdot) noexcept override {
@@ -105,7 +119,28 @@ class FeRotor : public SubsystemModel {
     }
   }
 
+  void completeInitialState(const In& u, Out x) const override {
+    const Index n = x.size() / 2;
+    for (const Absolute& a : absolute_) {  // given is the motion relative to the hub
+      x[a.state] += a.share * input(u, kHubMotion)[2];
+      x[n + a.state] += a.share * input(u, kHubMotion)[3];
+    }
+  }
+
  private:
+  /// A state that counts from the drive.
+  struct Absolute {
+    Index state;   // its place among the modal coordinates
+    double share;  // of the mast's twist
+  };
+
+  void deform(const In& x, const In& u) noexcept {
+    const double turn[2] = {input(u, kHubMotion)[2], input(u, kHubMotion)[3]};
+    if (!known_ || (!absolute_.empty() && (turn[0] != turn_[0] || turn[1] != turn_[1]))) dynamics_.deform(x.data(), turn);
+    std::copy(turn, turn + 2, turn_);
+    known_ = held_;
+  }
+
   /// cos and sin of multiples of a quarter turn without rounding, so that opposite blades cancel exactly.
   static double exactAtQuarters(double value) { return std::abs(value) < 1e-15 ? 0.0 : std::abs(std::abs(value) - 1.0) < 1e-15 ? std::copysign(1.0, value) : value; }
 
@@ -303,6 +338,8 @@ class FeRotor : public SubsystemModel {
   }
 
   bool held_ = false, known_ = false;   // evaluations are all at one x, which has been looked at
+  std::vector<Absolute> absolute_;
+  double turn_[2] = {};                 // twist of the mast and its rate when x was looked at
   FeRotorParameters p_;
   int blades_;
   BladeDynamics<L> dynamics_;
@@ -321,9 +358,15 @@ std::unique_ptr<SubsystemModel> makeFeRotorModel(const FeRotorParameters& parame
   return std::make_unique<FeRotor<8>>(parameters);
 }
 
+TwistLoad twistLoad(const FeRotorParameters& parameters) {
+  const BladeCoefficients c(parameters, parameters.sections.blades);
+  return {c.turn_stiffness, c.turn_damping};
+}
+
 Made makeFeRotor(Section& section, const BuildContext& context) {
   const std::size_t problems = section.problems().list().size();
-  const FeRotorParameters parameters = readFeRotorParameters(section, context.simulation.rotor_speed);
+  FeRotorParameters parameters = readFeRotorParameters(section, context.simulation.rotor_speed);
+  parameters.absolute_below = twistFrequency(context);
   if (section.problems().list().size() > problems) return nullptr;
   try {
     return makeFeRotorModel(parameters);

@@ -1,8 +1,11 @@
 #include "heerk_rotor/models/fe_rotor_parameters.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "heerk_rotor/config/section.hpp"
+#include "heerk_rotor/models/elastic_mast.hpp"
+#include "heerk_rotor/models/registry.hpp"
 
 namespace heerk_rotor {
 namespace {
@@ -74,6 +77,17 @@ bool same(const BladeProperties& a, const BladeProperties& b) {
 
 bool FeRotorParameters::equalBlades() const {
   return std::all_of(blades.begin(), blades.end(), [this](const BladeProperties& blade) { return same(blade, blades.front()); });
+}
+
+double twistFrequency(const BuildContext& context) {
+  const std::string mast = context.onlySubsystemOfType("elastic_mast");
+  if (formulationOf(context) == LagFormulation::kPrinted || mast.empty() || context.onlySubsystemOfType("fe_rotor").empty()) return 0.0;
+  Problems reported_by_the_mast_itself;
+  Section section(context.configuration, "subsystems." + mast, reported_by_the_mast_itself);
+  if (!section.has("hub_inertia")) return 0.0;
+  const double stiffness = section.number("stiffness", ElasticMast::Parameters().stiffness, "N m/rad", positive());
+  const double inertia = section.number("hub_inertia", 1.0, "kg m^2", positive());
+  return reported_by_the_mast_itself.empty() ? std::sqrt(stiffness / inertia) : 0.0;
 }
 
 FeRotorParameters readFeRotorParameters(Section& section, double rotor_speed) {

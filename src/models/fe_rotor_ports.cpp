@@ -43,7 +43,13 @@ std::vector<InputPort> feRotorInputs(const RotorSections& s) {
 std::vector<OutputPort> feRotorOutputs(const FeRotorParameters& p) {
   const RotorSections& s = p.sections;
   const Index n = s.blades;
-  const std::vector<std::string> shape{"pitch"}, motion{"hub_motion", "mount_velocity", "pitch", "pitch_rate"};
+  const std::vector<std::string> motion{"hub_motion", "mount_velocity", "pitch", "pitch_rate"};
+  // Where states count from the drive, the twist of the mast is a part of every displacement.
+  const auto with = [&p](std::vector<std::string> ports) {
+    if (p.absolute_below > 0.0) ports.insert(ports.begin(), "hub_motion");
+    return ports;
+  };
+  const std::vector<std::string> shape = with({"pitch"});
   std::vector<std::string> dynamics = motion;
   for (const char* port : {"section_loads", "hub_acceleration", "mount_acceleration", "pitch_acceleration"}) dynamics.push_back(port);
   std::vector<std::string> acceleration = dynamics;
@@ -55,7 +61,7 @@ std::vector<OutputPort> feRotorOutputs(const FeRotorParameters& p) {
           {"section_axes", s.portSize(6), "-", "unpitched section axes, in rotating blade axes: t toward the leading edge, n normal upwards", shape, 1.0,
            sectionEntryNames("axes", {"t_x", "t_y", "t_z", "n_x", "n_y", "n_z"}, s)},
           {"section_pitch", s.portSize(1), "rad", "pitch of each section: control, built-in and elastic twist, nose up positive", shape, 0.1, sectionEntryNames("section_pitch", {""}, s)},
-          {"section_pitch_rate", s.portSize(1), "rad/s", "time derivative of section_pitch", {"pitch_rate"}, 1.0, sectionEntryNames("section_pitch_rate", {""}, s)},
+          {"section_pitch_rate", s.portSize(1), "rad/s", "time derivative of section_pitch", with({"pitch_rate"}), 1.0, sectionEntryNames("section_pitch_rate", {""}, s)},
           {"section_acceleration", s.portSize(3), "m/s^2", "acceleration of the elastic axis relative to the earth, in rotating blade axes", acceleration, tip_speed * p.rotor_speed,
            sectionEntryNames("acceleration", {"x", "y", "z"}, s)},
           {"rotor_force", 3, "N", "force of the rotor on the hub, in hub_link", dynamics, 1e4, {"rotor_force_x", "rotor_force_y", "rotor_force_z"}},
@@ -64,16 +70,16 @@ std::vector<OutputPort> feRotorOutputs(const FeRotorParameters& p) {
           {"root_load", 6 * n, "N, N m", "force and moment of each blade on the hub about its centre, in rotating blade axes", dynamics, 1e4,
            perBlade("root", {"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"}, s.blades)},
           {"lag", n, "rad", "in-plane displacement of each blade tip over R, lead positive", shape, 0.01, {}, true},
-          {"lag_rate", n, "rad/s", "time derivative of lag", {"pitch", "pitch_rate"}, 1.0, {}, true},
+          {"lag_rate", n, "rad/s", "time derivative of lag", with({"pitch", "pitch_rate"}), 1.0, {}, true},
           {"flap", n, "rad", "height of each blade tip above the hub plane over R, precone included", shape, 0.01, {}, true},
-          {"flap_rate", n, "rad/s", "time derivative of flap", {"pitch", "pitch_rate"}, 1.0, {}, true},
+          {"flap_rate", n, "rad/s", "time derivative of flap", with({"pitch", "pitch_rate"}), 1.0, {}, true},
           {"flap_acceleration", n, "rad/s^2", "second time derivative of flap", dynamics, 10.0},
-          {"tip_twist", n, "rad", "elastic twist of each blade tip, nose up positive", {}, 0.01, {}, true},
+          {"tip_twist", n, "rad", "elastic twist of each blade tip, nose up positive", with({}), 0.01, {}, true},
           {"blade_momentum", 3, "N s", "linear momentum of all blades relative to the earth, in hub_link", motion, 100.0, {"blade_momentum_x", "blade_momentum_y", "blade_momentum_z"}},
           {"angular_momentum", 3, "N m s", "angular momentum of all blades relative to the earth about the hub, in hub_link", motion, 1e4,
            {"angular_momentum_x", "angular_momentum_y", "angular_momentum_z"}},
           {"blade_energy", 1, "J", "kinetic and elastic energy of all blades", motion, 1e5},
-          {"structural_dissipation", 1, "W", "power lost in structural damping and hinge dampers", {}, 1e2}};
+          {"structural_dissipation", 1, "W", "power lost in structural damping and hinge dampers", with({}), 1e2}};
 }
 
 }  // namespace heerk_rotor

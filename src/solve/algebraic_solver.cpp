@@ -106,7 +106,7 @@ struct AlgebraicSolver::Implementation {
     return list;
   }
 
-  SolveReport run(const std::vector<Action>& list, double t, const Vector& x, const Vector& w) noexcept {
+  SolveReport run(const std::vector<Action>& list, double t, const Vector& x, const Vector& w, bool trust = false) noexcept {
     SolveReport worst;
     for (const Action& action : list) {
       switch (action.kind) {
@@ -118,7 +118,7 @@ struct AlgebraicSolver::Implementation {
           break;
         case Action::Kind::kEvaluateTogether: values.evaluateInto(ports.data() + action.number, action.size, t, x, results.data() + action.number); break;
         case Action::Kind::kSolveLoop: {
-          const SolveReport report = loops[static_cast<std::size_t>(action.number)].solve(t, x, w);
+          const SolveReport report = loops[static_cast<std::size_t>(action.number)].solve(t, x, w, trust);
           if (report.status != SolveStatus::kConverged) return report;
           worst.iterations += report.iterations;
           if (report.error > worst.error) {
@@ -132,11 +132,11 @@ struct AlgebraicSolver::Implementation {
     return worst;
   }
 
-  SolveReport solve(double t, const Vector& x, const Vector& w, bool in_stage) noexcept {
+  SolveReport solve(double t, const Vector& x, const Vector& w, bool in_stage, bool trust) noexcept {
     ++counters.solves;
     values.in_stage = in_stage;
     values.beginSolve();
-    const SolveReport report = run(in_stage ? stage_actions : actions, t, x, w);
+    const SolveReport report = run(in_stage ? stage_actions : actions, t, x, w, trust);
     values.endSolve();
     return report;
   }
@@ -156,7 +156,7 @@ AlgebraicSolver::AlgebraicSolver(CoupledSystem& system, const SolverOptions& opt
     s.values.gather(static_cast<Index>(input), w);
 
   // The system must be index 1 here, also where the start values happen to solve a loop that has no unique solution.
-  SolveReport report = s.solve(t, x, w, false);
+  SolveReport report = s.solve(t, x, w, false, false);
   for (LoopSolver& loop : s.loops)
     if (report.status == SolveStatus::kConverged && !loop.refresh(t, x, w)) report.status = SolveStatus::kSingular;
   for (const LoopSolver& loop : s.loops) s.infos.push_back(loop.info());
@@ -171,9 +171,11 @@ AlgebraicSolver::AlgebraicSolver(CoupledSystem& system, const SolverOptions& opt
 
 AlgebraicSolver::~AlgebraicSolver() = default;
 
-SolveReport AlgebraicSolver::solve(double t, const Vector& x, const Vector& w) noexcept { return impl_->solve(t, x, w, false); }
+SolveReport AlgebraicSolver::solve(double t, const Vector& x, const Vector& w) noexcept { return impl_->solve(t, x, w, false, false); }
 
-SolveReport AlgebraicSolver::solveStage(double t, const Vector& z, const Vector& w) noexcept { return impl_->solve(t, z, w, true); }
+SolveReport AlgebraicSolver::solveWithin(double t, const Vector& x, const Vector& w) noexcept { return impl_->solve(t, x, w, false, true); }
+
+SolveReport AlgebraicSolver::solveStage(double t, const Vector& z, const Vector& w) noexcept { return impl_->solve(t, z, w, true, true); }
 
 void AlgebraicSolver::evalObserved(double t, const Vector& x, const Vector& w) noexcept {
   impl_->values.in_stage = false;

@@ -10,6 +10,8 @@ constexpr double kLostContraction = 0.3;   // ratio of two corrections above whi
 constexpr double kWorthLearning = 1e-9;    // correction; what smaller ones change is mostly rounding
 constexpr double kDifference = 1.5e-8;     // relative step of forward differences, sqrt of the machine precision
 constexpr double kRoundOff = 64 * 2.2e-16; // a residual below this share of the value cannot be lowered any more
+constexpr double kSafety = 4.0;            // on the error that a correction is expected to leave
+constexpr int kLongestTrust = 7;           // solves without a check
 
 }  // namespace
 
@@ -26,6 +28,12 @@ LoopSolver::LoopSolver(PortValues& values, const SolverOptions& options, SolverC
   for (Loop* loop : {&pruned_, &full_}) {
     loop->jacobian.setZero(largest);
     loop->core_groups = groupBySubsystem(values_.system, loop->plan.core);
+    for (const Index port : loop->plan.outputs) {
+      const CoupledSystem::Output& output = values_.system.outputs()[port];
+      const auto first = std::lower_bound(loop->plan.unknowns.begin(), loop->plan.unknowns.end(), output.begin);
+      const auto last = std::lower_bound(first, loop->plan.unknowns.end(), output.begin + output.size);
+      if (last - first < output.size) loop->partly_known.push_back(port);
+    }
   }
   markUnknowns();
 }
@@ -120,6 +128,7 @@ void LoopSolver::applyModelJacobians(Loop& loop, double t, const Vector& x) noex
 
 bool LoopSolver::factorize(Loop& loop) noexcept {
   loop.secants.clear();
+  loop.contraction_seen_at = 0.0;
   loop.factorized = loop.lu.factorize(loop.matrix);
   if (loop.factorized && loop.inverse.applies()) loop.inverse.take(loop.lu);
   return loop.factorized;
@@ -159,9 +168,29 @@ double LoopSolver::relativeSize(const Loop& loop, Index& worst) const noexcept {
   return norm;
 }
 
+/// The error that a first correction of this size is expected to leave: the share that the last checked one left, which grows in proportion to the
+/// correction where the loop is not linear.
+double LoopSolver::errorAfter(const Loop& loop, double correction) const noexcept {
+  return kSafety * loop.contraction * correction * std::max(1.0, correction / loop.contraction_seen_at);
+}
+
+/// Small corrections tell less than large ones: rounding is a part of what they leave, and may hide all the rest.
+void LoopSolver::observeContraction(Loop& loop, double first, double second) const noexcept {
+  constexpr double kAlike = 0.3;
+  const double share = std::max(second, kRoundOff) / first;
+  if (first <= kWorthLearning || (first < kAlike * loop.contraction_seen_at && share <= kSafety * loop.contraction)) return;
+  loop.contraction = share;
+  loop.contraction_seen_at = first;
+}
+
+void LoopSolver::apply(Loop& loop) noexcept {
+  for (std::size_t k = 0; k < loop.plan.unknowns.size(); ++k) values_.y[loop.plan.unknowns[k]] += loop.step[k] * loop.nominal[k];
+  ++counters_.newton_iterations;
+}
+
 /// Simplified Newton; the LU is kept as long as the corrections shrink, improved by secants. The tolerance is on the correction, not on the
 /// residual: a loop like that of the mast hides an error 700 times larger than its residual.
-SolveReport LoopSolver::iterate(Loop& loop, double t, const Vector& x, const Vector& w) noexcept {
+SolveReport LoopSolver::iterate(Loop& loop, double t, const Vector& x, const Vector& w, bool trust) noexcept {
   SolveReport report;
   double previous = HUGE_VAL;
   bool fresh = false;
@@ -169,7 +198,15 @@ SolveReport LoopSolver::iterate(Loop& loop, double t, const Vector& x, const Vec
     residual(loop, t, x, w);
     if (!loop.factorized && !refresh(loop, t, x, w)) break;
     report.error = correction(loop, report.iterations > 0 && !fresh && previous > kWorthLearning, report.entry);
+    if (report.iterations == 1 && !fresh) observeContraction(loop, previous, report.error);
     if (report.error <= options_.tolerance) return report;
+    if (trust && report.iterations == 0) {
+      if (const double expected = errorAfter(loop, report.error); expected <= options_.tolerance) {
+        apply(loop);
+        report.error = expected;
+        return report;
+      }
+    }
     if (!(report.error <= kLostContraction * previous)) {
       if (residualIsRoundOff(loop)) return report;  // corrections only stir round-off
       if (report.iterations > 0 && !fresh) {
@@ -185,8 +222,7 @@ SolveReport LoopSolver::iterate(Loop& loop, double t, const Vector& x, const Vec
     if (report.iterations >= options_.max_iterations || !std::isfinite(report.error)) break;
     previous = report.error;
     loop.taken = loop.step;
-    for (std::size_t k = 0; k < loop.plan.unknowns.size(); ++k) values_.y[loop.plan.unknowns[k]] += loop.step[k] * loop.nominal[k];
-    ++counters_.newton_iterations;
+    apply(loop);
   }
   if (report.entry < 0) report.entry = loop.plan.unknowns.front();
   const bool finite = std::isfinite(report.error) && std::all_of(loop.matrix.begin(), loop.matrix.end(), [](double v) { return std::isfinite(v); });
@@ -195,17 +231,17 @@ SolveReport LoopSolver::iterate(Loop& loop, double t, const Vector& x, const Vec
 }
 
 /// From where the unknowns are likely to be; should that lead nowhere, from where they were.
-SolveReport LoopSolver::iterateFromPrediction(Loop& loop, double t, const Vector& x, const Vector& w) noexcept {
+SolveReport LoopSolver::iterateFromPrediction(Loop& loop, double t, const Vector& x, const Vector& w, bool trust) noexcept {
   const std::vector<Index>& unknowns = loop.plan.unknowns;
   for (std::size_t k = 0; k < unknowns.size(); ++k) loop.before[k] = values_.y[unknowns[k]];
   const bool predicted = loop.start.predict(t, loop.predicted.data());
   if (predicted) for (std::size_t k = 0; k < unknowns.size(); ++k) values_.y[unknowns[k]] = loop.predicted[k];
-  SolveReport report = iterate(loop, t, x, w);
+  SolveReport report = iterate(loop, t, x, w, trust);
   if (report.status != SolveStatus::kConverged && predicted) {
     loop.start.forget();
     loop.factorized = false;
     for (std::size_t k = 0; k < unknowns.size(); ++k) values_.y[unknowns[k]] = loop.before[k];
-    report = iterate(loop, t, x, w);
+    report = iterate(loop, t, x, w, false);
   }
   if (report.status != SolveStatus::kConverged) return report;
   for (std::size_t k = 0; k < unknowns.size(); ++k) loop.predicted[k] = values_.y[unknowns[k]];
@@ -213,12 +249,12 @@ SolveReport LoopSolver::iterateFromPrediction(Loop& loop, double t, const Vector
   return report;
 }
 
-/// After everything is known: does each port of the component still agree with what was used?
-bool LoopSolver::consistent(const Loop& loop, double t, const Vector& x, const Vector& w, Index& worst) noexcept {
+/// After everything is known: do these ports of the component still agree with what was used?
+bool LoopSolver::consistent(const std::vector<Index>& ports, double t, const Vector& x, const Vector& w, Index& worst) noexcept {
   // Entries outside the iteration follow the residual's accuracy; a dependency that was overlooked shows far above it.
   const double tolerance = 100.0 * std::max(options_.tolerance, kRoundOff);
-  for (const Index input : loop.plan.inner_inputs) values_.gather(input, w);
-  for (const Index port : loop.plan.outputs) {
+  for (const Index input : current().plan.inner_inputs) values_.gather(input, w);
+  for (const Index port : ports) {
     values_.evaluate(&port, 1, t, x);
     const CoupledSystem::Output& output = values_.system.outputs()[port];
     for (Index e = output.begin; e < output.begin + output.size; ++e)
@@ -243,20 +279,23 @@ void LoopSolver::markUnknowns() noexcept {
   for (const Index e : current().plan.unknowns) is_unknown_[e] = 1;
 }
 
-SolveReport LoopSolver::solve(double t, const Vector& x, const Vector& w) noexcept {
+SolveReport LoopSolver::solve(double t, const Vector& x, const Vector& w, bool trust) noexcept {
   Loop& loop = current();
+  trust = trust && loop.unchecked < kLongestTrust;
   evaluateInOrder(loop.plan, loop.plan.before, t, x, w);
-  SolveReport report = loop.plan.unknowns.empty() ? SolveReport() : iterateFromPrediction(loop, t, x, w);
-  for (const Index port : loop.plan.core) adopt(port);
+  SolveReport report = loop.plan.unknowns.empty() ? SolveReport() : iterateFromPrediction(loop, t, x, w, trust);
+  // A trusted correction leaves what has been evaluated before it behind: entries that are not iterated keep the values with which the loop was solved.
+  if (!trust) for (const Index port : loop.plan.core) adopt(port);
   evaluateInOrder(loop.plan, loop.plan.after, t, x, w);
-  const bool good = report.status == SolveStatus::kConverged && consistent(loop, t, x, w, report.entry);
+  loop.unchecked = trust ? loop.unchecked + 1 : 0;
+  const bool good = report.status == SolveStatus::kConverged && consistent(trust ? loop.partly_known : loop.plan.outputs, t, x, w, report.entry);
   if (good || use_full_) return report;
 
   // Either a pruned zero became nonzero, or the pruned pattern hides what convergence needs: solve the whole loop.
   if (report.status == SolveStatus::kConverged) ++counters_.pruning_failures;
   use_full_ = true;
   markUnknowns();
-  return solve(t, x, w);
+  return solve(t, x, w, false);
 }
 
 LoopInfo LoopSolver::info() const {
@@ -273,6 +312,7 @@ void LoopSolver::appendTo(std::vector<double>& cache) const {
     const std::vector<double> secants = loop->secants.values();
     cache.insert(cache.end(), secants.begin(), secants.end());
     loop->start.appendTo(cache);
+    cache.insert(cache.end(), {loop->contraction, loop->contraction_seen_at, static_cast<double>(loop->unchecked)});
   }
 }
 
@@ -287,6 +327,9 @@ void LoopSolver::restore(std::vector<double>::const_iterator& value) {
     value += static_cast<std::ptrdiff_t>(loop->secants.values().size());
     loop->secants.restore({secants, value});
     loop->start.restore(value);
+    loop->contraction = *value++;
+    loop->contraction_seen_at = *value++;
+    loop->unchecked = static_cast<int>(*value++);
   }
   markUnknowns();
 }

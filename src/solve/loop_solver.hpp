@@ -16,7 +16,8 @@ class LoopSolver {
  public:
   LoopSolver(PortValues& values, const SolverOptions& options, SolverCounters& counters, const LoopPlan& pruned, const LoopPlan& full);
 
-  SolveReport solve(double t, const Vector& x, const Vector& w) noexcept;
+  /// `trust`: the last correction need not be checked by another evaluation where earlier solves say that it is good enough; what pruning assumes is.
+  SolveReport solve(double t, const Vector& x, const Vector& w, bool trust) noexcept;
 
   /// Takes and factorises the Jacobian at the present y. False: singular.
   bool refresh(double t, const Vector& x, const Vector& w) noexcept { return current().plan.unknowns.empty() || refresh(current(), t, x, w); }
@@ -35,6 +36,7 @@ class LoopSolver {
           step(p.unknowns.size(), 0.0), raw(step), taken(step), reference(step), kept(step), before(step), predicted(step), secants(p.gradient.size), start(p.gradient.size) {}
     LoopPlan plan;
     std::vector<PortGroup> core_groups;    // of plan.core
+    std::vector<Index> partly_known;       // ports with entries that pruning has spared: these may not depend on the loop
     SparseLu lu;
     ExplicitInverse inverse;               // of the same matrix, where it is small
     std::vector<double> matrix;            // I - dg/dy in units of the nominal magnitudes, in the order of plan.gradient.rows
@@ -45,6 +47,9 @@ class LoopSolver {
     std::vector<double> before, predicted; // y when a solve begins, and the guess it begins with
     SecantMemory secants;                  // how the Jacobian has changed since it was taken
     StartValues start;
+    double contraction = 1.0;              // what the first correction of a solve left of the error, as found by the last check
+    double contraction_seen_at = 0.0;      // the size of that first correction; 0: nothing is known
+    int unchecked = 0;                     // solves since then
     Vector jacobian;                       // scratch for a model's own Jacobian
   };
 
@@ -60,9 +65,12 @@ class LoopSolver {
   static void solveLinear(Loop& loop) noexcept;
   double correction(Loop& loop, bool learn, Index& worst) noexcept;
   double relativeSize(const Loop& loop, Index& worst) const noexcept;
-  SolveReport iterate(Loop& loop, double t, const Vector& x, const Vector& w) noexcept;
-  SolveReport iterateFromPrediction(Loop& loop, double t, const Vector& x, const Vector& w) noexcept;
-  bool consistent(const Loop& loop, double t, const Vector& x, const Vector& w, Index& worst) noexcept;
+  SolveReport iterate(Loop& loop, double t, const Vector& x, const Vector& w, bool trust) noexcept;
+  SolveReport iterateFromPrediction(Loop& loop, double t, const Vector& x, const Vector& w, bool trust) noexcept;
+  double errorAfter(const Loop& loop, double correction) const noexcept;
+  void observeContraction(Loop& loop, double first, double second) const noexcept;
+  void apply(Loop& loop) noexcept;
+  bool consistent(const std::vector<Index>& ports, double t, const Vector& x, const Vector& w, Index& worst) noexcept;
   void evaluateInOrder(const LoopPlan& plan, const std::vector<Index>& ports, double t, const Vector& x, const Vector& w) noexcept;
 
   PortValues& values_;

@@ -227,6 +227,25 @@ TEST_P(PropagatorOfMethod, readsWithTheGivenStrideAndWritesNothingBeyondTheResul
   }
 }
 
+TEST_P(PropagatorOfMethod, remaindersOnRatesAloneActLikeOthersWhoseFirstHalfIsZero) {
+  std::mt19937 random(12);
+  const Tableau& t = GetParam();
+  for (const int m : {1, 2, 5, 23}) {
+    ModalStiff part = modes(m, 30.0, random);
+    const Vector x = randomMatrix(2 * m, 1, random);
+    Matrix F = randomMatrix(2 * m, t.stages(), random);
+    F.topRows(m).setZero();
+    for (int row = 0; row <= t.stages(); ++row) {
+      Vector expected(2 * m), result(2 * m);
+      part.remainder_on_rates = false;
+      makePropagator(part, 0.1, t)->combine(row, x.data(), F.data(), 2 * m, expected.data());
+      part.remainder_on_rates = true;
+      makePropagator(part, 0.1, t)->combine(row, x.data(), F.data(), 2 * m, result.data());
+      EXPECT_LE((result - expected).cwiseAbs().maxCoeff(), 1e-15) << "row " << row << ", " << m << " modes";
+    }
+  }
+}
+
 TEST_P(PropagatorOfMethod, laterRemaindersAreNotRead) {
   std::mt19937 random(8);
   const Tableau& t = GetParam();

@@ -294,6 +294,77 @@ TEST(AlgebraicSolver, learnsHowTheJacobianHasChanged) {
   EXPECT_EQ(solver.counters().factorizations, factorizations);
 }
 
+/// y = 0.3 cos(2 y) + sin(x + t), through a pass-through.
+CoupledSystem cosineLoop() {
+  CouplingGraph graph;
+  graph.add("a", FunctionModel().state("x", 0.0).input("in").output("out", 1, {"in"}, [](double t, const In& x, const In& u, Out y) { y[0] = 0.3 * std::cos(2.0 * u[0]) + std::sin(x[0] + t); })
+      .derivatives([](double, const In&, const In&, Out xdot) { xdot[0] = 0.0; }).make());
+  graph.add("b", FunctionModel().input("in").output("out", 1, {"in"}, [](double, const In&, const In& u, Out y) { y[0] = u[0]; }).make());
+  graph.connect("a.out", "b.in");
+  graph.connect("b.out", "a.in");
+  return std::move(graph).build();
+}
+
+double cosineSolution(double t, double x) {
+  double y = std::sin(x + t);
+  for (int k = 0; k < 200; ++k) y -= (y - 0.3 * std::cos(2.0 * y) - std::sin(x + t)) / (1.0 + 0.6 * std::sin(2.0 * y));
+  return y;
+}
+
+TEST(AlgebraicSolver, withinStepsACorrectionIsTrustedThatEarlierOnesSayIsGoodEnough) {
+  CoupledSystem system = cosineLoop();
+  Vector x = system.initialState();
+  SolverOptions options;
+  AlgebraicSolver solver(system, options, 0.0, x, kNone);
+  constexpr double h = 1e-4;
+  int in_a_row = 0, longest = 0, trusted = 0;
+  double largest = 0.0, t = 0.0;
+  for (int k = 1; k <= 4000; ++k) {
+    t += k % 2 == 0 ? h : 0.5 * h;  // uneven, so that the prediction is not exact
+    const SolverCounters before = solver.counters();
+    ASSERT_EQ(solver.solveWithin(t, x, kNone).status, SolveStatus::kConverged);
+    const bool corrected = solver.counters().newton_iterations > before.newton_iterations, checked = solver.counters().residual_evaluations - before.residual_evaluations > 1;
+    trusted += corrected && !checked;
+    in_a_row = checked || !corrected ? 0 : in_a_row + 1;
+    longest = std::max(longest, in_a_row);
+    largest = std::max(largest, std::abs(solver.y()[0] - cosineSolution(t, 0.0)));
+    ASSERT_EQ(solver.u()[0], solver.y()[1]) << "inputs are those of the corrected solution";
+  }
+  EXPECT_GE(trusted, 1000);
+  EXPECT_LE(longest, 7);
+  EXPECT_LE(largest, 2.0 * options.tolerance);  // in parts of |y|, which reaches 1.3
+
+  // A jump makes the first correction large, of which nothing is known: it is checked.
+  x[0] = 1.0;
+  ASSERT_EQ(solver.solveWithin(t, x, kNone).status, SolveStatus::kConverged);
+  EXPECT_NEAR(solver.y()[0], cosineSolution(t, 1.0), options.tolerance);
+
+  // What everybody sees is always checked, down to the residual.
+  for (int k = 1; k <= 50; ++k) {
+    t += h;
+    ASSERT_EQ(solver.solve(t, x, kNone).status, SolveStatus::kConverged);
+    EXPECT_NEAR(solver.y()[0], 0.3 * std::cos(2.0 * solver.y()[0]) + std::sin(1.0 + t), 2.0 * options.tolerance);
+  }
+}
+
+TEST(AlgebraicSolver, withinStepsAPrunedZeroThatBecameNonzeroIsDetectedToo) {
+  CoupledSystem system = lateCoupling();
+  Vector x = system.initialState();
+  SolverOptions options;
+  AlgebraicSolver solver(system, options, 0.0, x, kNone);
+  double t = 0.0;
+  for (; t < 1.0; t += 0.01) {
+    x[0] = 9.0 + std::sin(t);
+    ASSERT_EQ(solver.solveWithin(t, x, kNone).status, SolveStatus::kConverged);
+  }
+  EXPECT_EQ(solver.counters().pruning_failures, 0u);
+  x[0] = 10.001;
+  ASSERT_EQ(solver.solveWithin(t, x, kNone).status, SolveStatus::kConverged);
+  EXPECT_EQ(solver.counters().pruning_failures, 1u);
+  const double z = (0.2 + 0.3 * 10.001) / (1.0 - 0.2 * 0.001 - 0.15);
+  EXPECT_NEAR(solver.y()[2], z, 10.0 * options.tolerance);
+}
+
 TEST(AlgebraicSolver, evaluatesPortsOfOneModelTogetherAndLongOnesIntoTheirReader) {
   /// Counts calls; ports 0 and 1 are long, and read by "reader" alone, port 2 is short.
   struct Wide : SubsystemModel {
@@ -348,18 +419,24 @@ TEST(AlgebraicSolver, reportsALoopWithoutSolution) {
 TEST(AlgebraicSolver, restoredCacheContinuesBitwise) {
   CoupledSystem first = partLoop(), second = partLoop();
   Vector x = first.initialState();
-  AlgebraicSolver a(first, tight(), 0.0, x, kNone), b(second, tight(), 0.0, x, kNone);
-  for (int k = 0; k < 30; ++k) {
-    x[0] = std::sin(0.3 * k);
-    a.solve(k, x, kNone);
-  }
+  SolverOptions options;
+  AlgebraicSolver a(first, options, 0.0, x, kNone), b(second, options, 0.0, x, kNone);
+  int trusted = 0;
+  const auto solve = [&](AlgebraicSolver& solver, int k) {
+    x[0] = 0.3 + 1e-5 * std::sin(0.3 * k);
+    const SolverCounters before = solver.counters();
+    k % 5 == 0 ? solver.solve(k, x, kNone) : solver.solveWithin(k, x, kNone);
+    const auto spent = [&](std::uint64_t SolverCounters::*counter) { return solver.counters().*counter - before.*counter; };
+    trusted += spent(&SolverCounters::newton_iterations) == 1 && spent(&SolverCounters::residual_evaluations) == 1;
+  };
+  for (int k = 0; k < 33; ++k) solve(a, k);
   b.restoreCache(a.cache());
-  for (int k = 30; k < 60; ++k) {
-    x[0] = std::sin(0.3 * k);
-    a.solve(k, x, kNone);
-    b.solve(k, x, kNone);
+  for (int k = 33; k < 90; ++k) {
+    solve(a, k);
+    solve(b, k);
     ASSERT_EQ(a.y(), b.y()) << k;
   }
+  EXPECT_GE(trusted, 20) << "trusted solves are among them";
   EXPECT_THROW(b.restoreCache({1.0}), std::invalid_argument);
 }
 

@@ -106,7 +106,7 @@ class Simulation : private StageEvaluator {
   void restore(const Checkpoint& checkpoint, bool new_epoch = false);
 
  private:
-  bool solveStage(double t, const Vector& x, const Vector& w) noexcept;
+  bool accept(const SolveReport& report, double t) noexcept;
   bool stateIsFinite(const Vector& x, double t) noexcept;
   bool outputsAreFinite() noexcept;
   void atStart(bool complete, double* f) noexcept override;

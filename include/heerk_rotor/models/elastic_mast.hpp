@@ -8,7 +8,7 @@ namespace heerk_rotor {
 ///   hub angle = Omega t + drive angle + twist,   I (alpha + r') = -K_s twist - c twist' + R,   twist'' = alpha - drive''
 /// R is the blades' reaction, alpha the hub's acceleration relative to the mount, r' the yaw acceleration of the mount (only with a hub of its
 /// own, see MastHub; with the lag rotor the mount does not yaw). With the lag rotor I = J in `printed` form (HEERK paper, eq. 9 and 17) and
-/// J / kappa in absolute-lag form, where R still contains the blades' stiffness against the twist. S is the 2x2 block of all constant stiffness
+/// J / kappa in absolute-lag form, where R still contains the blades' stiffness against the twist; with elastic blades that of their slow modes. S is the 2x2 block of all constant stiffness
 /// and damping: [[0, 1], [-(K_s + k_blades)/I, -(c + c_blades)/I]], k_blades at nominal speed (lag_rotor.md, section 5).
 ///
 /// States: twist, twist_rate (hub minus drive). Ports: mast_ports.hpp. The remainder f - S x is given directly, because K_s twist would cancel.

@@ -12,7 +12,10 @@ namespace heerk_rotor {
 /// Per blade, in pitched axes that feather with theta(t): M d'' + (C + 2 w_x G) d' + K(w, w', theta) d = loads, linear in the elastic
 /// displacements; root clamped or hinged in flap and lag. States are modal coordinates at nominal speed and zero pitch (V'MV = I,
 /// modes in 80-bit arithmetic), then their rates, [mode][blade]; S is the modal 2x2 form with C = alpha M + beta K at nominal speed. The
-/// remainder is given directly: pitch, precone Coriolis and hub terms, speed variation, hinge dampers, airloads.
+/// remainder is given directly: pitch, precone Coriolis and hub terms, speed variation, hinge dampers, airloads. On an elastic mast, modes slower
+/// than it have as states their motion relative to the drive instead of the hub (`simulation.formulation: absolute_lag`, lag_rotor.md, section 5): q plus the
+/// mode's share of the mast's twist, for which hub_motion and hub_acceleration bring twist, rate and both accelerations. Outputs and given initial values
+/// mean the same in both formulations.
 ///
 /// Inputs: hub_motion, hub_acceleration (from a mast; relative to the mount), mount_velocity, mount_acceleration (of the hub in hub_link;
 /// the linear acceleration is the specific force, gravity taken off, so that weight of the blades comes with it), hub_gravity (to
@@ -25,5 +28,13 @@ namespace heerk_rotor {
 /// order in the energies). `kinematics: small_angle` drops pitch from the structure and keeps positions and axes of first
 /// order, for comparison with the textbook's closed forms.
 std::unique_ptr<SubsystemModel> makeFeRotorModel(const FeRotorParameters& parameters);
+
+/// Stiffness and damping with which the modes that count from the drive hold the twist of the mast at nominal speed: constant, so that they belong into
+/// the mast's S.
+struct TwistLoad {
+  double stiffness = 0.0;  // [N m/rad]
+  double damping = 0.0;    // [N m s/rad]
+};
+TwistLoad twistLoad(const FeRotorParameters& parameters);
 
 }  // namespace heerk_rotor

@@ -6,6 +6,8 @@
 
 namespace heerk_rotor {
 
+struct BuildContext;
+
 /// Parameters of the elastic rotor.
 struct FeRotorParameters {
   RotorSections sections;               // blades, tip radius, radii of the airloads
@@ -14,9 +16,14 @@ struct FeRotorParameters {
   double precone = 0.0;                 // up positive [rad]
   int modes = 0;                        // lowest modes kept per blade; 0: all
   bool small_angle = false;             // first order in pitch, slopes and precone, as the textbook's closed forms
+  double absolute_below = 0.0;          // modes slower than this count from the drive instead of the hub (see BladeCoefficients) [rad/s]
 
   bool equalBlades() const;
 };
+
+/// Frequency of the only elastic mast with a hub of its own below the only fe_rotor, blades left out [rad/s]: modes of the blades that are slower count
+/// from the drive. 0 where there is no such pair, and with `formulation: printed`.
+double twistFrequency(const BuildContext& context);
 
 /// Reads `subsystems.<rotor>`; records problems. Finishes the section.
 FeRotorParameters readFeRotorParameters(Section& section, double rotor_speed);
