@@ -35,7 +35,8 @@ not with the modes, as HEERK4 does. What then remains is the number of evaluatio
 "best library without solver for S" put them. As the tolerance gets tighter their steps shrink faster than those of HEERK4, and BDF with all orders jumps to
 thousands of steps without gain in accuracy, which BDF up to order 2 does not (order 3 and above is unstable on oscillations). On the complete rotor HEERK4 needs
 more steps per revolution than on blades alone: root forces of fast modes accelerate the fuselage, which accelerates all blades, stiffness that is in no subsystem's S
-(with the fuselage held the error at 30 steps is a quarter)."""
+(with the fuselage held the error at 30 steps is a quarter). Below 19 steps per revolution its step is unstable in windows (`simulate --stability`: 8, 10, .., 18 steps):
+errors at 10 steps are those of one revolution only."""
 
 MEANINGS = {
     "lag_rotor": """`config/lag_rotor.yaml`, absolute-lag form, 10 s from a lag angle of 0.01 rad. Stiff is one undamped oscillation, the twist of the mast (102, 1020
