@@ -338,7 +338,7 @@ class FeRotor : public SubsystemModel {
   }
 
   bool held_ = false, known_ = false;   // evaluations are all at one x, which has been looked at
-  std::vector<Absolute> absolute_;
+  std::vector<Absolute> absolute_;      // states of slow modes, in the order of modes
   double turn_[2] = {};                 // twist of the mast and its rate when x was looked at
   FeRotorParameters p_;
   int blades_;
