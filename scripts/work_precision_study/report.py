@@ -47,7 +47,7 @@ per blade (up to 6.1·10⁵ rad/s). The rotor rests in hover, pitch moves along 
 Error: all published outputs, every fifth of a revolution. Our models evaluate four blades in the lanes of one, so that one blade costs nearly as much as four.""",
     "rotor": """`config/bo105.yaml` as shipped (four blades with 44 modes each, Pitt-Peters inflow, elastic mast, fuselage on springs, algebraic loop) with `polar:
 linear` and an upright shaft; start, length and error as for the blades.""",
-    "dual_disc": """`config/dual_disc.yaml`, 0.1 s from rest. Two errors, every 0.5 ms from 0.08 s on: of the displacements of both discs, and of all published outputs,
+    "dual_disc": """`config/dual_disc.yaml`, 0.1 s from rest. Two errors, every 2 ms from 0.08 s on: of the displacements of both discs, and of all published outputs,
 with the force of the rigid support, which rings at 10⁵ rad/s. The film's force has kinks, and the start at rest is one of them."""}
 
 
