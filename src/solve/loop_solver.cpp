@@ -28,6 +28,14 @@ LoopSolver::LoopSolver(PortValues& values, const SolverOptions& options, SolverC
   for (Loop* loop : {&pruned_, &full_}) {
     loop->jacobian.setZero(largest);
     loop->core_groups = groupBySubsystem(values_.system, loop->plan.core);
+    const auto innerInputsOf = [&](Index port) {
+      std::vector<Index> list;
+      for (const Index input : values_.system.outputs()[port].feedthrough)
+        if (std::find(loop->plan.inner_inputs.begin(), loop->plan.inner_inputs.end(), input) != loop->plan.inner_inputs.end()) list.push_back(input);
+      return list;
+    };
+    for (const Index port : loop->plan.before) loop->before_inputs.push_back(innerInputsOf(port));
+    for (const Index port : loop->plan.after) loop->after_inputs.push_back(innerInputsOf(port));
     for (const Index port : loop->plan.outputs) {
       const CoupledSystem::Output& output = values_.system.outputs()[port];
       const auto first = std::lower_bound(loop->plan.unknowns.begin(), loop->plan.unknowns.end(), output.begin);
@@ -266,11 +274,11 @@ bool LoopSolver::consistent(const std::vector<Index>& ports, double t, const Vec
   return true;
 }
 
-void LoopSolver::evaluateInOrder(const LoopPlan& p, const std::vector<Index>& ports, double t, const Vector& x, const Vector& w) noexcept {
-  for (const Index port : ports) {
-    for (const Index input : p.inner_inputs) values_.gather(input, w);
-    values_.evaluate(&port, 1, t, x);
-    adopt(port);
+void LoopSolver::evaluateInOrder(const std::vector<Index>& ports, const std::vector<std::vector<Index>>& inputs, double t, const Vector& x, const Vector& w) noexcept {
+  for (std::size_t k = 0; k < ports.size(); ++k) {
+    for (const Index input : inputs[k]) values_.gather(input, w);
+    values_.evaluate(&ports[k], 1, t, x);
+    adopt(ports[k]);
   }
 }
 
@@ -282,11 +290,11 @@ void LoopSolver::markUnknowns() noexcept {
 SolveReport LoopSolver::solve(double t, const Vector& x, const Vector& w, bool trust) noexcept {
   Loop& loop = current();
   trust = trust && loop.unchecked < kLongestTrust;
-  evaluateInOrder(loop.plan, loop.plan.before, t, x, w);
+  evaluateInOrder(loop.plan.before, loop.before_inputs, t, x, w);
   SolveReport report = loop.plan.unknowns.empty() ? SolveReport() : iterateFromPrediction(loop, t, x, w, trust);
   // A trusted correction leaves what has been evaluated before it behind: entries that are not iterated keep the values with which the loop was solved.
   if (!trust) for (const Index port : loop.plan.core) adopt(port);
-  evaluateInOrder(loop.plan, loop.plan.after, t, x, w);
+  evaluateInOrder(loop.plan.after, loop.after_inputs, t, x, w);
   loop.unchecked = trust ? loop.unchecked + 1 : 0;
   const bool good = report.status == SolveStatus::kConverged && consistent(trust ? loop.partly_known : loop.plan.outputs, t, x, w, report.entry);
   if (good || use_full_) return report;

@@ -36,6 +36,7 @@ class LoopSolver {
           step(p.unknowns.size(), 0.0), raw(step), taken(step), reference(step), kept(step), before(step), predicted(step), secants(p.gradient.size), start(p.gradient.size) {}
     LoopPlan plan;
     std::vector<PortGroup> core_groups;    // of plan.core
+    std::vector<std::vector<Index>> before_inputs, after_inputs;  // what these ports of the plan read of the loop
     std::vector<Index> partly_known;       // ports with entries that pruning has spared: these may not depend on the loop
     SparseLu lu;
     ExplicitInverse inverse;               // of the same matrix, where it is small
@@ -71,7 +72,7 @@ class LoopSolver {
   void observeContraction(Loop& loop, double first, double second) const noexcept;
   void apply(Loop& loop) noexcept;
   bool consistent(const std::vector<Index>& ports, double t, const Vector& x, const Vector& w, Index& worst) noexcept;
-  void evaluateInOrder(const LoopPlan& plan, const std::vector<Index>& ports, double t, const Vector& x, const Vector& w) noexcept;
+  void evaluateInOrder(const std::vector<Index>& ports, const std::vector<std::vector<Index>>& inputs, double t, const Vector& x, const Vector& w) noexcept;
 
   PortValues& values_;
   const SolverOptions options_;
