@@ -24,6 +24,7 @@ const Signal& CoupledSystem::signal(const std::string& name) const {
 
 Vector CoupledSystem::initialState() const {
   Vector x = declared_initial_;
+  for (const auto& [entry, value] : start_) x[entry] = value;  // also what a model derives its initial state from
   Vector u = Vector::Zero(u_size_), y = Vector::Zero(y_size_);
   // Each model may use what the others' initial states determine: sweep until nothing changes. Values in algebraic loops
   // are not solved here and stay meaningless.

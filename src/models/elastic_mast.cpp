@@ -82,6 +82,7 @@ void addElasticBlades(MastLoad& load, const BuildContext& context) {
   Problems reported_by_the_rotor_itself;
   Section rotor(context.configuration, "subsystems." + context.onlySubsystemOfType("fe_rotor"), reported_by_the_rotor_itself);
   rotor.word("type", "");
+  rotor.text("initial");
   FeRotorParameters parameters = readFeRotorParameters(rotor, context.simulation.rotor_speed);
   if (!reported_by_the_rotor_itself.empty()) return;
   parameters.absolute_below = frequency;

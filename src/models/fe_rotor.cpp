@@ -48,7 +48,11 @@ class FeRotor : public SubsystemModel {
           absolute_.push_back({c.mode_order[entry] * blades_ + k, share});
   }
 
-  std::vector<State> states() const override { return feRotorStates(dynamics_.coefficients().state_names); }
+  std::vector<State> states() const override {
+    std::vector<bool> from_drive(dynamics_.coefficients().state_names.size(), false);
+    for (const Absolute& a : absolute_) from_drive[static_cast<std::size_t>(a.state)] = true;
+    return feRotorStates(dynamics_.coefficients().state_names, from_drive);
+  }
   std::vector<InputPort> inputs() const override { return feRotorInputs(p_.sections); }
   std::vector<OutputPort> outputs() const override { return feRotorOutputs(p_); }
 
@@ -148,7 +152,7 @@ class FeRotor : public SubsystemModel {
 
   /// The axes depend on hub_motion, mount_velocity, pitch and pitch_rate, which begin u in this order. They are made anew only when one of
   /// these differs bitwise from last time: all ports of an instant share them. What a port does not feed through (shape: all but the pitch)
-  /// has no effect on the members it reads.
+  /// has no effect on the members it reads. (The mast's twist, which is a part of every displacement where states count from the drive, is none of them.)
   const BladeAxes<L>& movingAxes(const In& u) noexcept {
     const std::size_t bytes = axes_key_.size() * sizeof(double);
     if (axes_version_ > 0 && std::memcmp(axes_key_.data(), u.data(), bytes) == 0) return axes_;

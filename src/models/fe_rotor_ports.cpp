@@ -16,10 +16,14 @@ std::vector<std::string> perBlade(const std::string& name, const std::vector<std
 
 }  // namespace
 
-std::vector<State> feRotorStates(const std::vector<std::string>& names) {
+std::vector<State> feRotorStates(const std::vector<std::string>& names, const std::vector<bool>& from_drive) {
   std::vector<State> list;
-  for (const std::string& name : names) list.push_back({name, "kg^0.5 m", "modal coordinate of mode and blade (mode shapes of unit modal mass)"});
-  for (const std::string& name : names) list.push_back({name.substr(0, name.find('_')) + "_rate" + name.substr(name.find('_')), "kg^0.5 m/s", "rate of the modal coordinate"});
+  for (const bool rate : {false, true})
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const std::string name = rate ? names[i].substr(0, names[i].find('_')) + "_rate" + names[i].substr(names[i].find('_')) : names[i];
+      const std::string meaning = std::string(rate ? "rate of the " : "") + "modal coordinate of mode and blade (mode shapes of unit modal mass)" + (from_drive[i] ? " plus its share of the mast's twist" : "");
+      list.push_back({name, rate ? "kg^0.5 m/s" : "kg^0.5 m", meaning});
+    }
   return list;
 }
 

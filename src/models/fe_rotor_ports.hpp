@@ -14,8 +14,8 @@ enum FeRotorOutput {
   kLag, kLagRate, kFlap, kFlapRate, kFlapAcceleration, kTipTwist, kMomentum, kAngularMomentum, kEnergy, kDissipation
 };
 
-/// names: of the modal coordinates, [mode][blade]. Coordinates, then their rates.
-std::vector<State> feRotorStates(const std::vector<std::string>& names);
+/// names: of the modal coordinates, [mode][blade]; from_drive: which of them count from the drive. Coordinates, then their rates.
+std::vector<State> feRotorStates(const std::vector<std::string>& names, const std::vector<bool>& from_drive);
 std::vector<InputPort> feRotorInputs(const RotorSections& sections);
 std::vector<OutputPort> feRotorOutputs(const FeRotorParameters& parameters);
 

@@ -37,7 +37,7 @@ class LoopSolver {
     LoopPlan plan;
     std::vector<PortGroup> core_groups;    // of plan.core
     std::vector<std::vector<Index>> before_inputs, after_inputs;  // what these ports of the plan read of the loop
-    std::vector<Index> partly_known;       // ports with entries that pruning has spared: these may not depend on the loop
+    std::vector<Index> spared;             // ports of which pruning assumes more than that they are iterated: with entries that are not, or reading ports behind the loop
     SparseLu lu;
     ExplicitInverse inverse;               // of the same matrix, where it is small
     std::vector<double> matrix;            // I - dg/dy in units of the nominal magnitudes, in the order of plan.gradient.rows
@@ -50,7 +50,8 @@ class LoopSolver {
     StartValues start;
     double contraction = 1.0;              // what the first correction of a solve left of the error, as found by the last check
     double contraction_seen_at = 0.0;      // the size of that first correction; 0: nothing is known
-    int unchecked = 0;                     // solves since then
+    int unchecked = 0;                     // solves in a row that ended with a trusted correction
+    bool trusted = false;                  // the present one has
     Vector jacobian;                       // scratch for a model's own Jacobian
   };
 

@@ -332,7 +332,7 @@ TEST(AlgebraicSolver, withinStepsACorrectionIsTrustedThatEarlierOnesSayIsGoodEno
   }
   EXPECT_GE(trusted, 1000);
   EXPECT_LE(longest, 7);
-  EXPECT_LE(largest, 2.0 * options.tolerance);  // in parts of |y|, which reaches 1.3
+  EXPECT_LE(largest, 4.0 * options.tolerance);  // of the correction in parts of |y|, which reaches 1.3, by a Jacobian that may be off by half
 
   // A jump makes the first correction large, of which nothing is known: it is checked.
   x[0] = 1.0;
@@ -363,6 +363,29 @@ TEST(AlgebraicSolver, withinStepsAPrunedZeroThatBecameNonzeroIsDetectedToo) {
   EXPECT_EQ(solver.counters().pruning_failures, 1u);
   const double z = (0.2 + 0.3 * 10.001) / (1.0 - 0.2 * 0.001 - 0.15);
   EXPECT_NEAR(solver.y()[2], z, 10.0 * options.tolerance);
+}
+
+TEST(AlgebraicSolver, withinStepsAPortThatBeginsToReadWhatFollowsFromTheLoopIsDetectedToo) {
+  // a = 0.5 b_1 + x + max(0, x - 10) b_2, b = (0.4 a, 3 a): until x exceeds 10, b_2 follows from the loop and nothing in it reads b_2.
+  CouplingGraph graph;
+  graph.add("a", FunctionModel().state("x", 0.0).input("in", 2).output("out", 1, {"in"}, [](double, const In& x, const In& u, Out y) { y[0] = 0.5 * u[0] + x[0] + std::max(0.0, x[0] - 10.0) * u[1]; })
+      .derivatives([](double, const In&, const In&, Out xdot) { xdot[0] = 0.0; }).make());
+  graph.add("b", FunctionModel().input("in").output("out", 2, {"in"}, [](double, const In&, const In& u, Out y) { y << 0.4 * u[0], 3.0 * u[0]; }).make());
+  graph.connect("a.out", "b.in");
+  graph.connect("b.out", "a.in");
+  CoupledSystem system = std::move(graph).build();
+  Vector x = system.initialState();
+  SolverOptions options;
+  AlgebraicSolver solver(system, options, 0.0, x, kNone);
+  double t = 0.0;
+  for (; t < 1.0; t += 0.01) {
+    x[0] = 9.0 + std::sin(t);
+    ASSERT_EQ(solver.solveWithin(t, x, kNone).status, SolveStatus::kConverged);
+  }
+  EXPECT_EQ(solver.counters().pruning_failures, 0u);
+  x[0] = 10.001;
+  ASSERT_EQ(solver.solveWithin(t, x, kNone).status, SolveStatus::kConverged);
+  EXPECT_NEAR(solver.y()[0], 10.001 / (1.0 - 0.2 - 0.003), 1e-8);
 }
 
 TEST(AlgebraicSolver, evaluatesPortsOfOneModelTogetherAndLongOnesIntoTheirReader) {

@@ -25,7 +25,7 @@ struct DenseStiff {
 struct ModalStiff {
   Vector omega;    // (m) undamped circular frequencies, >= 0 [rad/s]
   Vector damping;  // (m) c = 2 zeta omega, >= 0 [1/s]
-  bool remainder_on_rates = false;  // the model's remainder acts on q'' alone: its first m entries are always zero, and nobody need read them
+  bool remainder_on_rates = false;  // the model's remainder acts on q'' alone: its first m entries are always zero, written as such but not always read
 };
 
 /// A second-order system q'' = -stiffness q - damping q'. States are all q, then all q' (n = 2 m): S = [[0, I], [-stiffness, -damping]].

@@ -14,8 +14,8 @@ namespace heerk_rotor {
 /// modes in 80-bit arithmetic), then their rates, [mode][blade]; S is the modal 2x2 form with C = alpha M + beta K at nominal speed. The
 /// remainder is given directly: pitch, precone Coriolis and hub terms, speed variation, hinge dampers, airloads. On an elastic mast, modes slower
 /// than it have as states their motion relative to the drive instead of the hub (`simulation.formulation: absolute_lag`, lag_rotor.md, section 5): q plus the
-/// mode's share of the mast's twist, for which hub_motion and hub_acceleration bring twist, rate and both accelerations. Outputs and given initial values
-/// mean the same in both formulations.
+/// mode's share of the mast's twist, for which hub_motion and hub_acceleration, both of that mast, bring twist, rate and accelerations (docs/fe_rotor.md). Outputs and
+/// given initial values mean the same in both formulations.
 ///
 /// Inputs: hub_motion, hub_acceleration (from a mast; relative to the mount), mount_velocity, mount_acceleration (of the hub in hub_link;
 /// the linear acceleration is the specific force, gravity taken off, so that weight of the blades comes with it), hub_gravity (to

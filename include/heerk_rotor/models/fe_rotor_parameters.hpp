@@ -21,8 +21,8 @@ struct FeRotorParameters {
   bool equalBlades() const;
 };
 
-/// Frequency of the only elastic mast with a hub of its own below the only fe_rotor, blades left out [rad/s]: modes of the blades that are slower count
-/// from the drive. 0 where there is no such pair, and with `formulation: printed`.
+/// Frequency of the only elastic mast with a hub of its own that is connected with the only fe_rotor, blades left out [rad/s]: modes of the blades that
+/// are slower count from the drive. 0 where there is no such pair, and with `formulation: printed`.
 double twistFrequency(const BuildContext& context);
 
 /// Reads `subsystems.<rotor>`; records problems. Finishes the section.

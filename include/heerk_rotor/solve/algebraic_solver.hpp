@@ -58,8 +58,8 @@ class AlgebraicSolver {
   /// Outputs that f needs. Allocates nothing.
   SolveReport solve(double t, const Vector& x, const Vector& w) noexcept;
 
-  /// The same for an instant within a step that nobody sees. A correction whose error, going by earlier solves, is below a quarter of the tolerance is
-  /// not checked by another evaluation of the loop; at least every eighth solve in a row is.
+  /// The same for an instant within a step that nobody sees. A correction whose error, as estimated from earlier solves, is below a quarter of the tolerance
+  /// is not checked by another evaluation of the loop; at least every eighth solve in a row is.
   SolveReport solveWithin(double t, const Vector& x, const Vector& w) noexcept;
 
   /// solveWithin() in a stage whose state is given as z (CoupledSystem::stageSize()).
