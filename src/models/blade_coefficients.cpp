@@ -238,18 +238,18 @@ BladeCoefficients::BladeCoefficients(const FeRotorParameters& p, int lanes_)
         }
         hub_row_products.push_back(static_cast<double>(sum));
       }
-  turn_stiffness = turn_damping = 0.0;
+  twist_stiffness = twist_damping = 0.0;
   for (int entry = 0; entry < modes; ++entry)
     for (int k = 0; k < copies; ++k) {
       const auto at = [&](int row) { return hub_rows[static_cast<std::size_t>((entry * kHubRows + row) * copies + k)]; };
       const double square_of_omega = stiffness[static_cast<std::size_t>(entry * copies + k)];
       const double share = square_of_omega < p.absolute_below * p.absolute_below ? c * at(kRowTurnZ) + s * at(kRowTurnX) : 0.0;
-      turn_share.push_back(share);
+      twist_share.push_back(share);
       const int alike = copies == 1 ? blades : k < blades ? 1 : 0;  // blades that this one stands for
-      turn_stiffness += alike * share * share * square_of_omega;
-      turn_damping += alike * share * share * mode_damping[static_cast<std::size_t>(entry * copies + k)];
+      twist_stiffness += alike * share * share * square_of_omega;
+      twist_damping += alike * share * share * mode_damping[static_cast<std::size_t>(entry * copies + k)];
     }
-  absolute = std::any_of(turn_share.begin(), turn_share.end(), [](double share) { return share != 0.0; });
+  absolute = std::any_of(twist_share.begin(), twist_share.end(), [](double share) { return share != 0.0; });
   for (int slope : {static_cast<int>(kDofSlopeV), static_cast<int>(kDofSlopeW)})
     for (int k = 0; k < copies; ++k) hinge_damping.push_back(static_cast<double>(entry(matrices[of(k)].C_hinge, free_dof, slope, slope)));
 

@@ -84,8 +84,8 @@ struct BladeCoefficients {
   /// mast (FeRotorParameters::absolute_below) have p = q + b twist as state, in effect their motion relative to the drive, as the lag rotor has in its
   /// absolute-lag form. Then they feel omega^2 b twist instead, a smaller force, and the mast's S can take the stiffness with which they hold it.
   bool absolute;                                  // there are such modes
-  std::vector<double> turn_share;                 // [modal entry][copy]: b, 0 where the state is q
-  double turn_stiffness, turn_damping;            // sum of b^2 omega^2 [N m/rad] and of b^2 c [N m s/rad] over those modes of all blades
+  std::vector<double> twist_share;                // [modal entry][copy]: b, 0 where the state is q
+  double twist_stiffness, twist_damping;          // sum of b^2 omega^2 [N m/rad] and of b^2 c [N m s/rad] over those modes of all blades
 
   std::vector<double> hinge_damping;              // [2][copy]: of the root slopes in v and in w
   std::vector<double> rigid;                      // [10][copy]: mass, first moment x y z, inertia xx yy zz xy xz yz

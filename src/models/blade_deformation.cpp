@@ -31,19 +31,20 @@ BladeDeformation<L>::BladeDeformation(const FeRotorParameters& p) : c_(p, L) {
 }
 
 template <int L>
-bool BladeDeformation<L>::deform(const double* x, const double (&turn)[2]) noexcept {
+bool BladeDeformation<L>::deform(const double* x, const double (&twist)[2], bool same_x) noexcept {
   const std::size_t bytes = state_key_.size() * sizeof(double);
-  if (state_valid_ && (!c_.absolute || std::memcmp(turn, turn_key_, sizeof turn) == 0) && std::memcmp(x, state_key_.data(), bytes) == 0) return false;
+  const bool same_twist = !c_.absolute || std::memcmp(twist, twist_key_, sizeof twist) == 0;
+  if (state_valid_ && same_twist && (same_x || std::memcmp(x, state_key_.data(), bytes) == 0)) return false;
   std::memcpy(state_key_.data(), x, bytes);
-  std::memcpy(turn_key_, turn, sizeof turn);
+  std::memcpy(twist_key_, twist, sizeof twist);
   state_valid_ = true;
   for (std::size_t i = 0; i < q_.size(); ++i) {
     const double* const q = x + c_.mode_order[i] * c_.blades;
     Vec value = loadLanes<L>(q, c_.blades), rate = loadLanes<L>(q + c_.modes * c_.blades, c_.blades);
     if (c_.absolute) {
-      const Vec share = entry<L>(c_, c_.turn_share, i);
-      value -= turn[0] * share;
-      rate -= turn[1] * share;
+      const Vec share = entry<L>(c_, c_.twist_share, i);
+      value -= twist[0] * share;
+      rate -= twist[1] * share;
     }
     q_[i] = joinLanes<L>(value, rate);
   }

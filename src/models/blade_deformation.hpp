@@ -20,8 +20,9 @@ class BladeDeformation {
 
   const BladeCoefficients& coefficients() const { return c_; }
 
-  /// x: modal q, then q', [mode][blade], p and p' for modes that count from the drive; turn: twist of the mast and its rate. Returns whether anything changed.
-  bool deform(const double* x, const double (&turn)[2]) noexcept;
+  /// x: modal q, then q', [mode][blade], p and p' for modes that count from the drive; twist: of the mast, and its rate; same_x: x is known to be that of the
+  /// last call. Returns whether anything changed.
+  bool deform(const double* x, const double (&twist)[2], bool same_x) noexcept;
 
   /// Displacements, and their rates, at section j (sections: tip).
   SectionMotion<L> displacement(int j) const noexcept {
@@ -77,7 +78,7 @@ class BladeDeformation {
 
   BladeCoefficients c_;
   std::vector<double> state_key_;
-  double turn_key_[2] = {};
+  double twist_key_[2] = {};
   bool state_valid_ = false;
   std::vector<Pair> q_;                         // (modal) q, q'
   std::vector<Pair> d_;                         // (nodal) d, d'

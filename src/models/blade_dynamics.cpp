@@ -18,8 +18,8 @@ BladeDynamics<L>::BladeDynamics(const FeRotorParameters& p) : deformation_(p), c
 }
 
 template <int L>
-void BladeDynamics<L>::deform(const double* x, const double (&turn)[2]) noexcept {
-  if (deformation_.deform(x, turn)) load_valid_ = acceleration_valid_ = false;
+void BladeDynamics<L>::deform(const double* x, const double (&twist)[2], bool same_x) noexcept {
+  if (deformation_.deform(x, twist, same_x)) load_valid_ = acceleration_valid_ = false;
 }
 
 template <int L>

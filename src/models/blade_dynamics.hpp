@@ -46,8 +46,8 @@ class BladeDynamics {
 
   const BladeCoefficients& coefficients() const { return deformation_.coefficients(); }
 
-  /// Level 1. x: state; turn: twist of the mast and its rate.
-  void deform(const double* x, const double (&turn)[2]) noexcept;
+  /// Level 1, arguments as for BladeDeformation.
+  void deform(const double* x, const double (&twist)[2], bool same_x) noexcept;
   /// Displacements, and their rates, at section j (sections: tip).
   SectionMotion<L> displacement(int j) const noexcept { return deformation_.displacement(j); }
   SectionMotion<L> displacementRate(int j) const noexcept { return deformation_.displacementRate(j); }

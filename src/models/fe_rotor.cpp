@@ -1,6 +1,5 @@
 #include "heerk_rotor/models/fe_rotor.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -44,7 +43,7 @@ class FeRotor : public SubsystemModel {
     const BladeCoefficients& c = dynamics_.coefficients();
     for (std::size_t entry = 0; entry < c.mode_order.size(); ++entry)
       for (int k = 0; k < blades_; ++k)
-        if (const double share = c.turn_share[entry * static_cast<std::size_t>(c.copies) + static_cast<std::size_t>(c.copies == 1 ? 0 : k)]; share != 0.0)
+        if (const double share = c.twist_share[entry * static_cast<std::size_t>(c.copies) + static_cast<std::size_t>(c.copies == 1 ? 0 : k)]; share != 0.0)
           absolute_.push_back({c.mode_order[entry] * blades_ + k, share});
   }
 
@@ -68,7 +67,8 @@ class FeRotor : public SubsystemModel {
   }
 
   void evalOutputs(const PortValue* values, Index count, double, const In& x, const In& u) noexcept override {
-    deform(x, u);
+    deform(x, u, known_);
+    known_ = held_;
     bool accelerated = false;
     for (Index k = 0; k < count; ++k) {
       const Index port = values[k].port;
@@ -96,8 +96,7 @@ class FeRotor : public SubsystemModel {
   bool providesRemainder() const override { return true; }
 
   void evalRemainder(double, const In& x, const In& u, Out remainder) noexcept override {
-    known_ = false;
-    deform(x, u);
+    deform(x, u, false);
     accelerate(u);
     const Index n = static_cast<Index>(dynamics_.coefficients().modes) * blades_;
     remainder.head(n).setZero();
@@ -138,11 +137,9 @@ class FeRotor : public SubsystemModel {
     double share;  // of the mast's twist
   };
 
-  void deform(const In& x, const In& u) noexcept {
-    const double turn[2] = {input(u, kHubMotion)[2], input(u, kHubMotion)[3]};
-    if (!known_ || (!absolute_.empty() && (turn[0] != turn_[0] || turn[1] != turn_[1]))) dynamics_.deform(x.data(), turn);
-    std::copy(turn, turn + 2, turn_);
-    known_ = held_;
+  void deform(const In& x, const In& u, bool same_x) noexcept {
+    const double* motion = input(u, kHubMotion);
+    dynamics_.deform(x.data(), {motion[2], motion[3]}, same_x);
   }
 
   /// cos and sin of multiples of a quarter turn without rounding, so that opposite blades cancel exactly.
@@ -343,7 +340,6 @@ class FeRotor : public SubsystemModel {
 
   bool held_ = false, known_ = false;   // evaluations are all at one x, which has been looked at
   std::vector<Absolute> absolute_;      // states of slow modes, in the order of modes
-  double turn_[2] = {};                 // twist of the mast and its rate when x was looked at
   FeRotorParameters p_;
   int blades_;
   BladeDynamics<L> dynamics_;
@@ -364,7 +360,7 @@ std::unique_ptr<SubsystemModel> makeFeRotorModel(const FeRotorParameters& parame
 
 TwistLoad twistLoad(const FeRotorParameters& parameters) {
   const BladeCoefficients c(parameters, parameters.sections.blades);
-  return {c.turn_stiffness, c.turn_damping};
+  return {c.twist_stiffness, c.twist_damping};
 }
 
 Made makeFeRotor(Section& section, const BuildContext& context) {

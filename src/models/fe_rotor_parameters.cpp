@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "heerk_rotor/config/section.hpp"
-#include "heerk_rotor/config/yaml_value.hpp"
 #include "heerk_rotor/models/elastic_mast.hpp"
 #include "heerk_rotor/models/registry.hpp"
 
@@ -74,14 +73,6 @@ bool same(const BladeProperties& a, const BladeProperties& b) {
          a.root.lag_damper == b.root.lag_damper;
 }
 
-bool connects(const Configuration& configuration, const std::string& from, const std::string& to) {
-  const YAML::Node connections = findValue(configuration.root(), "connections");
-  if (!connections.IsDefined() || !connections.IsSequence()) return false;
-  return std::any_of(connections.begin(), connections.end(), [&](const YAML::Node& pair) {
-    return pair.IsSequence() && pair.size() == 2 && pair[0].IsScalar() && pair[1].IsScalar() && pair[0].Scalar() == from && pair[1].Scalar() == to;
-  });
-}
-
 }  // namespace
 
 bool FeRotorParameters::equalBlades() const {
@@ -93,7 +84,7 @@ double twistFrequency(const BuildContext& context) {
   const std::string rotor = context.onlySubsystemOfType("fe_rotor");
   if (formulationOf(context) == LagFormulation::kPrinted || mast.empty() || rotor.empty()) return 0.0;
   for (const char* port : {"hub_motion", "hub_acceleration"})
-    if (!connects(context.configuration, mast + "." + port, rotor + "." + port)) return 0.0;
+    if (!context.connects(mast + "." + port, rotor + "." + port)) return 0.0;
   Problems reported_by_the_mast_itself;
   Section section(context.configuration, "subsystems." + mast, reported_by_the_mast_itself);
   if (!section.has("hub_inertia")) return 0.0;

@@ -60,6 +60,14 @@ std::string BuildContext::onlySubsystemOfType(const std::string& type) const {
   return found;
 }
 
+bool BuildContext::connects(const std::string& output, const std::string& input) const {
+  const YAML::Node connections = configuration.root()["connections"];
+  if (!connections || !connections.IsSequence()) return false;
+  for (const auto& pair : connections)
+    if (pair.IsSequence() && pair.size() == 2 && pair[0].IsScalar() && pair[1].IsScalar() && pair[0].Scalar() == output && pair[1].Scalar() == input) return true;
+  return false;
+}
+
 const std::vector<ModelType>& modelTypes() {
   static const std::vector<ModelType> types{
       {"lag_rotor", "four lag-hinged blades on a fuselage (HEERK paper, Section 3)", makeLagRotor},

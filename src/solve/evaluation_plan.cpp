@@ -182,16 +182,32 @@ LoopPlan planLoop(const EntryGraph& graph, const std::vector<Index>& component, 
   return plan;
 }
 
+/// What the ports of a loop read of each other.
 void findInnerInputs(const CoupledSystem& system, LoopPlan& plan) {
   const auto contains = [](const std::vector<Index>& list, Index value) { return std::find(list.begin(), list.end(), value) != list.end(); };
+  const auto fedBy = [&](Index input, const std::vector<Index>& ports) {
+    const auto& sources = system.inputs()[input].sources;
+    return std::any_of(sources.begin(), sources.end(), [&](Index source) { return contains(ports, source); });
+  };
+  const auto readOf = [&](Index port, const std::vector<Index>& ports) {
+    std::vector<Index> inputs;
+    for (const Index input : system.outputs()[port].feedthrough)
+      if (fedBy(input, ports)) inputs.push_back(input);
+    return inputs;
+  };
+  const auto append = [&](const std::vector<Index>& inputs, std::vector<Index>& to) {
+    for (const Index input : inputs)
+      if (!contains(to, input)) to.push_back(input);
+  };
   for (const Index port : plan.outputs) {
-    for (const Index input : system.outputs()[port].feedthrough) {
-      const auto& sources = system.inputs()[input].sources;
-      const auto fedBy = [&](const std::vector<Index>& ports) { return std::any_of(sources.begin(), sources.end(), [&](Index s) { return contains(ports, s); }); };
-      if (fedBy(plan.outputs) && !contains(plan.inner_inputs, input)) plan.inner_inputs.push_back(input);
-      if (fedBy(plan.core) && contains(plan.core, port) && !contains(plan.core_inputs, input)) plan.core_inputs.push_back(input);
-    }
+    append(readOf(port, plan.outputs), plan.inner_inputs);
+    if (contains(plan.core, port)) append(readOf(port, plan.core), plan.core_inputs);
+    const CoupledSystem::Output& output = system.outputs()[port];
+    const auto iterated = std::count_if(plan.unknowns.begin(), plan.unknowns.end(), [&](Index e) { return e >= output.begin && e < output.begin + output.size; });
+    if (iterated < output.size || !readOf(port, plan.after).empty()) plan.spared.push_back(port);
   }
+  for (const Index port : plan.before) plan.before_inputs.push_back(readOf(port, plan.outputs));
+  for (const Index port : plan.after) plan.after_inputs.push_back(readOf(port, plan.outputs));
 }
 
 /// Without pruning every entry may depend on every entry that its port can reach.

@@ -28,25 +28,6 @@ LoopSolver::LoopSolver(PortValues& values, const SolverOptions& options, SolverC
   for (Loop* loop : {&pruned_, &full_}) {
     loop->jacobian.setZero(largest);
     loop->core_groups = groupBySubsystem(values_.system, loop->plan.core);
-    const auto innerInputsOf = [&](Index port) {
-      std::vector<Index> list;
-      for (const Index input : values_.system.outputs()[port].feedthrough)
-        if (std::find(loop->plan.inner_inputs.begin(), loop->plan.inner_inputs.end(), input) != loop->plan.inner_inputs.end()) list.push_back(input);
-      return list;
-    };
-    for (const Index port : loop->plan.before) loop->before_inputs.push_back(innerInputsOf(port));
-    for (const Index port : loop->plan.after) loop->after_inputs.push_back(innerInputsOf(port));
-    for (const Index port : loop->plan.outputs) {
-      const CoupledSystem::Output& output = values_.system.outputs()[port];
-      const auto first = std::lower_bound(loop->plan.unknowns.begin(), loop->plan.unknowns.end(), output.begin);
-      const auto last = std::lower_bound(first, loop->plan.unknowns.end(), output.begin + output.size);
-      const std::vector<Index> inner = innerInputsOf(port);
-      const bool reads_what_follows = std::any_of(inner.begin(), inner.end(), [&](Index input) {
-        const std::vector<Index>& sources = values_.system.inputs()[input].sources;
-        return std::any_of(sources.begin(), sources.end(), [&](Index source) { return std::find(loop->plan.after.begin(), loop->plan.after.end(), source) != loop->plan.after.end(); });
-      });
-      if (last - first < output.size || reads_what_follows) loop->spared.push_back(port);
-    }
   }
   markUnknowns();
 }
@@ -187,12 +168,13 @@ double LoopSolver::errorAfter(const Loop& loop, double correction) const noexcep
   return kSafety * loop.contraction * correction * std::max(1.0, correction / loop.contraction_seen_at);
 }
 
-/// Small corrections tell less than large ones: rounding is a part of what they leave, and may hide all the rest. A share that is small once, where the
-/// kept Jacobian happens to be right, is believed by halves only.
+/// Small corrections tell less than large ones, because rounding is a part of what they leave and may hide all the rest: they count when the share has
+/// clearly grown. A share that is small once, where the kept Jacobian happens to be right, is believed by halves only.
 void LoopSolver::observeContraction(Loop& loop, double first, double second) const noexcept {
   constexpr double kAlike = 0.3, kMemory = 0.5;
   const double share = std::max(second, kRoundOff) / first;
-  if (first <= kWorthLearning || (first < kAlike * loop.contraction_seen_at && share <= kSafety * loop.contraction)) return;
+  const bool small = first <= kWorthLearning || first < kAlike * loop.contraction_seen_at;
+  if (small && !(second > kRoundOff && share > kSafety * loop.contraction)) return;
   loop.contraction = loop.contraction_seen_at > 0.0 ? std::max(share, kMemory * loop.contraction) : share;
   loop.contraction_seen_at = first;
 }
@@ -298,13 +280,13 @@ void LoopSolver::markUnknowns() noexcept {
 SolveReport LoopSolver::solve(double t, const Vector& x, const Vector& w, bool trust) noexcept {
   Loop& loop = current();
   loop.trusted = false;
-  evaluateInOrder(loop.plan.before, loop.before_inputs, t, x, w);
+  evaluateInOrder(loop.plan.before, loop.plan.before_inputs, t, x, w);
   SolveReport report = loop.plan.unknowns.empty() ? SolveReport() : iterateFromPrediction(loop, t, x, w, trust && loop.unchecked < kLongestTrust);
   // A trusted correction leaves what has been evaluated before it behind: entries that are not iterated keep the values with which the loop was solved.
   if (!loop.trusted) for (const Index port : loop.plan.core) adopt(port);
-  evaluateInOrder(loop.plan.after, loop.after_inputs, t, x, w);
+  evaluateInOrder(loop.plan.after, loop.plan.after_inputs, t, x, w);
   loop.unchecked = loop.trusted ? loop.unchecked + 1 : 0;
-  const bool good = report.status == SolveStatus::kConverged && consistent(loop.trusted ? loop.spared : loop.plan.outputs, t, x, w, report.entry);
+  const bool good = report.status == SolveStatus::kConverged && consistent(loop.trusted ? loop.plan.spared : loop.plan.outputs, t, x, w, report.entry);
   if (good || use_full_) return report;
 
   // Either a pruned zero became nonzero, or the pruned pattern hides what convergence needs: solve the whole loop.

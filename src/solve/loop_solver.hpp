@@ -36,8 +36,6 @@ class LoopSolver {
           step(p.unknowns.size(), 0.0), raw(step), taken(step), reference(step), kept(step), before(step), predicted(step), secants(p.gradient.size), start(p.gradient.size) {}
     LoopPlan plan;
     std::vector<PortGroup> core_groups;    // of plan.core
-    std::vector<std::vector<Index>> before_inputs, after_inputs;  // what these ports of the plan read of the loop
-    std::vector<Index> spared;             // ports of which pruning assumes more than that they are iterated: with entries that are not, or reading ports behind the loop
     SparseLu lu;
     ExplicitInverse inverse;               // of the same matrix, where it is small
     std::vector<double> matrix;            // I - dg/dy in units of the nominal magnitudes, in the order of plan.gradient.rows

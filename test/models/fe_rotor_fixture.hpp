@@ -2,6 +2,7 @@
 #include <random>
 #include <string>
 
+#include "heerk_rotor/models/fe_rotor_parameters.hpp"
 #include "heerk_rotor/models/registry.hpp"
 #include "heerk_rotor/models/rotor_sections.hpp"
 #include "models/rotor_runs.hpp"
@@ -14,6 +15,17 @@ inline std::string bo105Rotor(const std::string& more = "") {
          "stations: [0.20, 0.37, 0.60, 4.91], mass: [22.20, 22.20, 5.55, 5.55], EI_flap: [69600, 69600, 8700, 8700], EI_lag: [656000, 656000, 82000, 82000], "
          "GJ: [46400, 46400, 5800, 5800], km1: 0.0075, km2: 0.0730, kA: 0.0730, twist_deg_per_R: -8.0, precone_deg: 2.5, root_cutout: 1.08, "
          "damping_mass: 0.5, damping_stiffness: 1.0e-7" + more + "}";
+}
+
+/// What `rotor: <yaml>` says, turning at rotor_speed.
+inline FeRotorParameters rotorParameters(const std::string& yaml, double rotor_speed) {
+  const Configuration configuration = Configuration::parse("simulation: {rotor_speed: " + std::to_string(rotor_speed) + ", step: 1.0e-3}\nsubsystems:\n  rotor: " + yaml + "\n", "lone", {});
+  Problems problems;
+  Section section(configuration, "subsystems.rotor", problems);
+  section.word("type", "");
+  FeRotorParameters p = readFeRotorParameters(section, rotor_speed);
+  if (!problems.empty()) throw std::runtime_error(problems.text());
+  return p;
 }
 
 /// One model by itself, evaluated at chosen states and inputs.

@@ -13,12 +13,7 @@ using namespace test;
 constexpr double kOmega = 44.4, kBelow = 245.0;  // of the shipped mast [rad/s]
 
 std::unique_ptr<SubsystemModel> rotorOf(const std::string& yaml, double absolute_below) {
-  const Configuration configuration = Configuration::parse("simulation: {rotor_speed: 44.4, step: 1.0e-3}\nsubsystems:\n  rotor: " + yaml + "\n", "lone", {});
-  Problems problems;
-  Section section(configuration, "subsystems.rotor", problems);
-  section.word("type", "");
-  FeRotorParameters p = readFeRotorParameters(section, kOmega);
-  if (!problems.empty()) throw std::runtime_error(problems.text());
+  FeRotorParameters p = rotorParameters(yaml, kOmega);
   p.absolute_below = absolute_below;
   return makeFeRotorModel(p);
 }

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 
 #include "heerk_rotor/beam/blade_modes.hpp"
-#include "heerk_rotor/models/fe_rotor_parameters.hpp"
 #include "models/fe_rotor_fixture.hpp"
 
 namespace heerk_rotor {
@@ -16,16 +15,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kOmega = 44.4;
-
-FeRotorParameters parameters(const std::string& yaml) {
-  const Configuration configuration = Configuration::parse("simulation: {rotor_speed: 44.4, step: 1.0e-3}\nsubsystems:\n  rotor: " + yaml + "\n", "lone", {});
-  Problems problems;
-  Section section(configuration, "subsystems.rotor", problems);
-  section.word("type", "");
-  FeRotorParameters p = readFeRotorParameters(section, kOmega);
-  if (!problems.empty()) throw std::runtime_error(problems.text());
-  return p;
-}
 
 /// One blade at displacements d and rates v of the free degrees of freedom.
 class DenseBlade {
@@ -119,7 +108,7 @@ const std::vector<Case>& cases() {
 
 TEST(FeRotorReference, accelerationsAndRootLoadsAreThoseOfDenseMatrices) {
   for (const Case& c : cases()) {
-    const FeRotorParameters p = parameters(bo105Rotor(c.more));
+    const FeRotorParameters p = rotorParameters(bo105Rotor(c.more), kOmega);
     LoneModel rotor("fe_rotor", bo105Rotor(c.more), kOmega);
     const ModalStiff modal = std::get<ModalStiff>(rotor.model().stiffPart());
     std::mt19937 random(11);

@@ -19,6 +19,8 @@ struct BuildContext {
 
   /// Name of the only subsystem of that type, or "" (a mast finds its rotor this way).
   std::string onlySubsystemOfType(const std::string& type) const;
+  /// Whether the configuration connects these ports, "subsystem.output" to "subsystem.input".
+  bool connects(const std::string& output, const std::string& input) const;
 };
 
 /// A registered type: the word after `type:` in the configuration.
