@@ -60,15 +60,23 @@ for program in "$programs"/bench_*; do
     --benchmark_report_aggregates_only=false >"$results/$name.log" 2>&1 || { echo "bench_$name failed, see $results/$name.log" >&2; status=1; }
 done
 
-# Throughput of a sweep: eight runs of the elastic rotor by one job and by two, in turn, so that both see the same machine.
+# Throughput of a sweep: eight runs of the elastic rotor by one job, by two, and by two programs with half of the runs each, which share nothing but the
+# machine: what two jobs can reach on it. In turn, so that all see the same machine.
+key=subsystems.mast.stiffness
+run_sweep() { "$programs/simulate" "$repository/config/bo105.yaml" --sweep "$key=$1" --revolutions 10 --signals rotor.lag --output "$results/$2.csv" --jobs "$3" --json 2>/dev/null; }
 if chosen sweep && [ "$(nproc)" -ge 2 ]; then
   echo sweep
   : >"$results/sweep.jobs"
-  for ((i = 0; i < repetitions; ++i)); do
+  : >"$results/sweep.halves"
+  for ((i = 0; i < 2 * repetitions - 1; ++i)); do
     for jobs in 1 2; do
-      "$programs/simulate" "$repository/config/bo105.yaml" --sweep subsystems.mast.stiffness=3e5:3e7:8:log --revolutions 10 --signals rotor.lag --output "$results/sweep_$jobs.csv" \
-        --jobs $jobs --json 2>/dev/null >>"$results/sweep.jobs" || { echo "the sweep failed" >&2; status=1; }
+      run_sweep 3e5:3e7:8:log "sweep_$jobs" $jobs >>"$results/sweep.jobs" || { echo "the sweep failed" >&2; status=1; }
     done
+    run_sweep 3e5:2.16e6:4:log sweep_lower 1 >"$results/sweep.lower" &
+    lower=$!
+    run_sweep 4.17e6:3e7:4:log sweep_upper 1 >"$results/sweep.upper" || status=1
+    wait $lower || status=1
+    cat "$results/sweep.lower" "$results/sweep.upper" >>"$results/sweep.halves"
     cmp "$results/sweep_1.csv" "$results/sweep_2.csv" || status=1
   done
 fi

@@ -24,12 +24,15 @@ def bounds(results, checks):
         m = results.get(program, name)
         if m:
             checks.add(claim, m.best <= most, tables.time_text(m.best))
-    if 1 in results.sweeps and 2 in results.sweeps:
-        (wall_1, cpu_1), (wall_2, cpu_2) = results.sweeps[1], results.sweeps[2]
+    if results.sweep:
+        (wall_1, cpu_1), (wall_2, cpu_2) = results.sweep.median(1), results.sweep.median(2)
         claim = "sweep of eight runs of the elastic rotor: throughput of two jobs at least 1.9 times that of one"
         found = f"wall times {wall_1:.2f} s and {wall_2:.2f} s, CPU times {cpu_1:.2f} s and {cpu_2:.2f} s"
         if cpu_1 >= 0.9 * wall_1:
-            checks.add(claim, wall_1 >= 1.9 * wall_2, f"{wall_1 / wall_2:.2f} ({found})")
+            throughput, possible = results.sweep.throughput(), results.sweep.throughput_of_programs()
+            if possible:
+                found += f"; two programs that do half of the runs each: {possible:.2f}"
+            checks.add(claim, throughput >= 1.9, f"{throughput:.2f} ({found})")
         else:  # other work takes part of each processor, and the system may share them by groups of processes, whatever their number of threads
             checks.rows.append([claim, f"one job got {100 * cpu_1 / wall_1:.0f} % of a processor; {found}", NOT_MEASURED])
 

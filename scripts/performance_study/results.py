@@ -39,11 +39,41 @@ class Measurement:
         return statistics.median(self.times)
 
 
+class Sweep:
+    """Wall and CPU times [s] of a sweep by one job and by two, and wall times of two programs that do half of it each; one entry per repetition."""
+
+    def __init__(self, folder):
+        runs = [json.loads(line) for line in self.lines(folder / "sweep.jobs")]
+        self.by_jobs = {jobs: [(run["wall_time"], run["cpu_time"]) for run in runs if run["jobs"] == jobs] for jobs in (1, 2)}
+        halves = [json.loads(line)["wall_time"] for line in self.lines(folder / "sweep.halves")]
+        self.programs = [max(pair) for pair in zip(halves[0::2], halves[1::2])]
+
+    @staticmethod
+    def lines(file):
+        return file.read_text().splitlines() if file.exists() else []
+
+    def median(self, jobs):
+        """Median wall time and median CPU time."""
+        return tuple(statistics.median(run[k] for run in self.by_jobs[jobs]) for k in (0, 1))
+
+    def throughput(self):
+        """Of two jobs, in parts of that of one: median over the repetitions."""
+        return statistics.median(one[0] / two[0] for one, two in zip(self.by_jobs[1], self.by_jobs[2]))
+
+    def throughput_of_programs(self):
+        """The same of two programs, or None."""
+        ratios = [one[0] / both for one, both in zip(self.by_jobs[1], self.programs)]
+        return statistics.median(ratios) if ratios else None
+
+    def __bool__(self):
+        return all(self.by_jobs.values())
+
+
 class Results:
     """All measurements by program and benchmark name, without the parts of the name that only say how it was run."""
 
     def __init__(self, folder):
-        self.sweeps = self.read_sweeps(pathlib.Path(folder) / "sweep.jobs")
+        self.sweep = Sweep(pathlib.Path(folder))
         self.programs, self.contexts, self.commits, self.repetitions = {}, {}, set(), 0
         for file in sorted(pathlib.Path(folder).glob("*.json")):
             try:
@@ -61,16 +91,6 @@ class Results:
                 name = re.sub(r"/(iterations:\d+|manual_time|repeats:\d+)", "", entry["name"])
                 measurements.setdefault(name, Measurement(name)).add(entry)
             self.repetitions = max([self.repetitions] + [len(m.times) for m in measurements.values()])
-
-    @staticmethod
-    def read_sweeps(file):
-        """Shortest wall time and shortest CPU time [s] of the sweep by number of jobs."""
-        times = {}
-        for line in file.read_text().splitlines() if file.exists() else []:
-            run = json.loads(line)
-            wall, cpu = times.get(run["jobs"], (float("inf"), float("inf")))
-            times[run["jobs"]] = (min(wall, run["wall_time"]), min(cpu, run["cpu_time"]))
-        return times
 
     def get(self, program, name):
         """The measurement, or None when it is missing or failed."""
