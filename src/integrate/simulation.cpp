@@ -89,9 +89,7 @@ void Simulation::removeObserver(Observer& observer) { observers_.erase(std::remo
 void Simulation::atStart(bool complete, double* f) noexcept { system_.evalRemainder(modelTime(), x_, solver_->u(), complete, f); }
 
 bool Simulation::at(double t, const Vector& x, bool complete, double* f) noexcept {
-  if (!stateIsFinite(x, t) || !accept(solver_->solveWithin(t, x, w_), t)) return false;
-  system_.evalRemainder(t, x, solver_->u(), complete, f);
-  return true;
+  return stateIsFinite(x, t) && accept(solver_->evalRemainderWithin(t, x, w_, complete, f), t);
 }
 
 bool Simulation::atStartNarrow(const Vector& z, double* r) noexcept { return system_.evalStageRemainder(modelTime(), z, solver_->u(), r); }

@@ -181,7 +181,7 @@ void BladeAirloads::addVirtualMass(Index j, const double* u, const Flow<N>& flow
 template <int N>
 void BladeAirloads::evaluate(const double* x, const double* u, Results& results) const noexcept {
   const int count = p_.sections.blades;
-  const double c1 = std::cos(u[in_.motion]), s1 = std::sin(u[in_.motion]);
+  const auto [s1, c1] = sineCosine(u[in_.motion]);
   Blades<N> blades;
   for (int k = 0; k < N; ++k) {
     const double c = c1 * turn_cosine_[k] - s1 * turn_sine_[k], s = s1 * turn_cosine_[k] + c1 * turn_sine_[k];

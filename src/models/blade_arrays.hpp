@@ -34,46 +34,97 @@ inline LaneVector<L> entry(const BladeCoefficients& c, const std::vector<double>
   return c.copies == 1 ? entry<true, L>(values, index) : entry<false, L>(values, index);
 }
 
-/// How many of the `width` lanes of nodal and modal arrays are worked on at once.
-template <int L, bool equal>
-constexpr int registerLanes(int width) { return std::min(equal ? width : L, kRegisterLanes); }
+// Products with V, tile by tile: the sums of a tile stay in registers, and a coefficient that has been read serves all registers that it concerns.
 
-/// nodal = V modal, in arrays of `width` lanes: a multiple of the L blades.
+/// Arrays of `width` lanes, of L blades or of two quantities of L blades: lanes of a register, registers that share coefficients (both quantities), and
+/// tiles worked on at once, so that there are enough sums that do not wait for each other.
 template <int width, int L, bool equal>
-inline void toNodes(const BladeCoefficients& c, const double* modal, double* nodal) noexcept {
-  constexpr int B = BladeCoefficients::kBlock, R = registerLanes<L, equal>(width), stride = equal ? 1 : L;
-  for (const BladeCoefficients::ModeBlock& block : c.mode_blocks)
-    for (int part = 0; part < width; part += R) {
-      LaneVector<R> sum[B] = {};
-      const double* a = block.V.data() + (equal ? 0 : part % L);
-      const double* q = modal + block.first * width + part;
-      for (int i = 0; i < block.count; ++i, q += width, a += B * stride)
-        for (int r = 0; r < B; ++r) sum[r] += coefficient<equal, LaneVector<R>>(a + r * stride) * readLanes<R>(q);
-#pragma GCC unroll 8
-      for (int r = 0; r < B; ++r) writeLanes<R>(sum[r], nodal + block.position[r] * width + part);
+struct TileRegisters {
+  static constexpr int lanes = std::min(equal ? width : L, kRegisterLanes);
+  static constexpr int sharing = width > L && lanes <= L ? 2 : 1;
+  static constexpr int tiles = sharing == 2 ? 1 : 2;
+  using Lanes = LaneVector<lanes>;
+  template <int count>
+  using Sums = Lanes[count * BladeCoefficients::kTile][sharing];
+};
+
+/// sums += coefficients times one value of either quantity, in `tiles` tiles; coefficients: of the first tile, `step` apart.
+template <class Registers, int L, bool equal, int tiles, int step>
+inline void addProducts(const double* coefficients, std::ptrdiff_t next_tile, const double* value, typename Registers::template Sums<tiles>& sums) noexcept {
+  typename Registers::Lanes factor[Registers::sharing];
+#pragma GCC unroll 2
+  for (int s = 0; s < Registers::sharing; ++s) factor[s] = readLanes<Registers::lanes>(value + s * L);
+#pragma GCC unroll 2
+  for (int tile = 0; tile < tiles; ++tile)
+#pragma GCC unroll 5
+    for (int i = 0; i < BladeCoefficients::kTile; ++i) {
+      const auto a = coefficient<equal, typename Registers::Lanes>(coefficients + tile * next_tile + i * step);
+#pragma GCC unroll 2
+      for (int s = 0; s < Registers::sharing; ++s) sums[tile * BladeCoefficients::kTile + i][s] += a * factor[s];
     }
 }
 
-/// modal += V' nodal.
+/// nodal = V modal for the rows of `tiles` tiles.
+template <int width, int L, bool equal, int tiles>
+inline void tilesToNodes(const BladeCoefficients& c, int row_tile, const double* modal, double* nodal) noexcept {
+  using Registers = TileRegisters<width, L, equal>;
+  constexpr int B = BladeCoefficients::kTile, copies = equal ? 1 : L;
+  const BladeCoefficients::TileRange modes = c.modes_of_rows[static_cast<std::size_t>(row_tile)].with(c.modes_of_rows[static_cast<std::size_t>(row_tile + tiles - 1)]);
+  const int* const position = c.row_position.data() + row_tile * B;
+  for (int lane = 0; lane < width / Registers::sharing; lane += Registers::lanes) {
+    typename Registers::template Sums<tiles> sums = {};
+    const double* V = c.tile(row_tile, modes.begin) + (equal ? 0 : lane);
+    const double* q = modal + modes.begin * B * width + lane;
+    for (int m = modes.begin * B; m < modes.end * B; ++m, V += B * copies, q += width) addProducts<Registers, L, equal, tiles, copies>(V, c.nextRowTile(), q, sums);
+#pragma GCC unroll 10
+    for (int r = 0; r < tiles * B; ++r)
+#pragma GCC unroll 2
+      for (int s = 0; s < Registers::sharing; ++s) writeLanes<Registers::lanes>(sums[r][s], nodal + position[r] * width + lane + s * L);
+  }
+}
+
+/// modal = start + V' nodal for the modal entries of `tiles` tiles; start: a modal array, or null for zero.
+template <int width, int L, bool equal, int tiles>
+inline void tilesToModes(const BladeCoefficients& c, int mode_tile, const double* nodal, const double* start, double* modal) noexcept {
+  using Registers = TileRegisters<width, L, equal>;
+  constexpr int B = BladeCoefficients::kTile, copies = equal ? 1 : L;
+  const BladeCoefficients::TileRange rows = c.rows_of_modes[static_cast<std::size_t>(mode_tile)].with(c.rows_of_modes[static_cast<std::size_t>(mode_tile + tiles - 1)]);
+  const int first = mode_tile * B * width;
+  for (int lane = 0; lane < width / Registers::sharing; lane += Registers::lanes) {
+    typename Registers::template Sums<tiles> sums = {};
+    if (start)
+#pragma GCC unroll 10
+      for (int m = 0; m < tiles * B; ++m)
+#pragma GCC unroll 2
+        for (int s = 0; s < Registers::sharing; ++s) sums[m][s] = readLanes<Registers::lanes>(start + first + m * width + lane + s * L);
+    const double* V = c.tile(rows.begin, mode_tile) + (equal ? 0 : lane);
+    const int* position = c.row_position.data() + rows.begin * B;
+    for (int tile = rows.begin; tile < rows.end; ++tile, V += c.nextRowTile(), position += B)
+#pragma GCC unroll 5
+      for (int r = 0; r < B; ++r) addProducts<Registers, L, equal, tiles, B * copies>(V + r * copies, c.nextModeTile(), nodal + position[r] * width + lane, sums);
+#pragma GCC unroll 10
+    for (int m = 0; m < tiles * B; ++m)
+#pragma GCC unroll 2
+      for (int s = 0; s < Registers::sharing; ++s) writeLanes<Registers::lanes>(sums[m][s], modal + first + m * width + lane + s * L);
+  }
+}
+
+/// nodal = V modal.
 template <int width, int L, bool equal>
-inline void addToModes(const BladeCoefficients& c, const double* nodal, double* modal) noexcept {
-  constexpr int B = BladeCoefficients::kBlock, R = registerLanes<L, equal>(width), stride = equal ? 1 : L;
-  for (const BladeCoefficients::ModeBlock& block : c.mode_blocks)
-    for (int part = 0; part < width; part += R) {
-      LaneVector<R> f[B];
-#pragma GCC unroll 8
-      for (int r = 0; r < B; ++r) f[r] = readLanes<R>(nodal + block.position[r] * width + part);
-      const double* a = block.V.data() + (equal ? 0 : part % L);
-      double* q = modal + block.first * width + part;
-      for (int i = 0; i < block.count; ++i, q += width, a += B * stride) {
-        LaneVector<R> even = readLanes<R>(q), odd{};  // two shorter chains of additions
-        for (int r = 0; r < B; r += 2) {
-          even += coefficient<equal, LaneVector<R>>(a + r * stride) * f[r];
-          odd += coefficient<equal, LaneVector<R>>(a + (r + 1) * stride) * f[r + 1];
-        }
-        writeLanes<R>(even + odd, q);
-      }
-    }
+inline void toNodes(const BladeCoefficients& c, const double* modal, double* nodal) noexcept {
+  constexpr int tiles = TileRegisters<width, L, equal>::tiles;
+  int tile = 0;
+  for (; tile + tiles <= c.row_tiles; tile += tiles) tilesToNodes<width, L, equal, tiles>(c, tile, modal, nodal);
+  if (tile < c.row_tiles) tilesToNodes<width, L, equal, 1>(c, tile, modal, nodal);
+}
+
+/// modal = start + V' nodal; start: a modal array, or null for zero.
+template <int width, int L, bool equal>
+inline void toModes(const BladeCoefficients& c, const double* nodal, const double* start, double* modal) noexcept {
+  constexpr int tiles = TileRegisters<width, L, equal>::tiles;
+  int tile = 0;
+  for (; tile + tiles <= c.mode_tiles; tile += tiles) tilesToModes<width, L, equal, tiles>(c, tile, nodal, start, modal);
+  if (tile < c.mode_tiles) tilesToModes<width, L, equal, 1>(c, tile, nodal, start, modal);
 }
 
 /// The displacements at a section from nodal ones; values: LaneVector of any width.

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "heerk_rotor/core/branch_free_math.hpp"
+
 namespace heerk_rotor {
 namespace {
 
@@ -30,7 +32,7 @@ BladeAzimuths::BladeAzimuths(int blades) : blades_(blades) {
 }
 
 void BladeAzimuths::evaluate(double psi, double* cosine, double* sine) const noexcept {
-  const double c = std::cos(psi), s = std::sin(psi);
+  const auto [s, c] = sineCosine(psi);
   for (std::size_t k = 0; k < static_cast<std::size_t>(blades_); ++k) {
     cosine[k] = c * cosine_[k] - s * sine_[k];
     sine[k] = s * cosine_[k] + c * sine_[k];

@@ -132,24 +132,25 @@ BladeCoefficients::BladeCoefficients(const FeRotorParameters& p, int lanes_)
       stiffness.push_back(w * w);
       mode_damping.push_back(blade_modes[of(k)].damping[mode]);
     }
-  for (std::size_t begin = 0; begin < shape_rows.size(); begin += kBlock) {
-    const std::size_t count = std::min(shape_rows.size() - begin, static_cast<std::size_t>(kBlock));
-    const auto moves = [&](int entry) {
-      return std::any_of(shape_rows.begin() + static_cast<std::ptrdiff_t>(begin), shape_rows.begin() + static_cast<std::ptrdiff_t>(begin + count),
-                         [&](const Row& row) { return row.moves[static_cast<std::size_t>(mode_order[static_cast<std::size_t>(entry)])]; });
-    };
-    ModeBlock block{};
-    for (std::size_t r = 0; r < kBlock; ++r) block.position[r] = r < count ? shape_rows[begin + r].position : nodal_size - 1;
-    int end = modes;
-    while (end > 0 && !moves(end - 1)) --end;
-    while (block.first < end && !moves(block.first)) ++block.first;
-    block.count = end - block.first;
-    for (int entry = block.first; entry < end; ++entry)
-      for (std::size_t r = 0; r < kBlock; ++r)
-        for (int k = 0; k < copies; ++k)
-          block.V.push_back(r < count ? static_cast<double>(blade_modes[of(k)].V(shape_rows[begin + r].matrix_row, mode_order[static_cast<std::size_t>(entry)])) : 0.0);
-    mode_blocks.push_back(std::move(block));
-  }
+  const auto tilesOf = [](std::size_t count) { return (static_cast<int>(count) + kTile - 1) / kTile; };
+  row_tiles = tilesOf(shape_rows.size());
+  mode_tiles = tilesOf(static_cast<std::size_t>(modes));
+  const auto rowAt = [&](int i) { return i < static_cast<int>(shape_rows.size()) ? &shape_rows[static_cast<std::size_t>(i)] : nullptr; };
+  for (int i = 0; i < row_tiles * kTile; ++i) row_position.push_back(rowAt(i) ? rowAt(i)->position : nodal_size - 1);
+  modes_of_rows.assign(static_cast<std::size_t>(row_tiles), {mode_tiles, 0});
+  rows_of_modes.assign(static_cast<std::size_t>(mode_tiles), {row_tiles, 0});
+  for (int i = 0; i < row_tiles * kTile; i += kTile)
+    for (int entry = 0; entry < modal_size(); ++entry)
+      for (int r = i; r < i + kTile; ++r) {
+        const Row* const row = entry < modes ? rowAt(r) : nullptr;
+        const int mode = row ? mode_order[static_cast<std::size_t>(entry)] : 0;
+        for (int k = 0; k < copies; ++k) V.push_back(row ? static_cast<double>(blade_modes[of(k)].V(row->matrix_row, mode)) : 0.0);
+        if (!row || !row->moves[static_cast<std::size_t>(mode)]) continue;
+        const int row_tile = r / kTile, mode_tile = entry / kTile;
+        TileRange &of_rows = modes_of_rows[static_cast<std::size_t>(row_tile)], &of_modes = rows_of_modes[static_cast<std::size_t>(mode_tile)];
+        of_rows = of_rows.with({mode_tile, mode_tile + 1});
+        of_modes = of_modes.with({row_tile, row_tile + 1});
+      }
 
   // Forms.
   const auto form = [&](const BladeMatrices& b, int which) -> const BeamMatrix& {

@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -28,7 +30,7 @@ constexpr int hubPair(int i, int j) { return i * kHubRows - i * (i - 1) / 2 + j 
 /// Nodal arrays run by kind of displacement, then node, then value and slope: [lag | flap | twist][node][kKindSize], with a node of zeros
 /// on both sides of each kind, so that every node has two neighbours. Held degrees of freedom stay zero. The last entry belongs to none.
 struct BladeCoefficients {
-  static constexpr int kBlock = 8;
+  static constexpr int kTile = 5;    // rows and modes of a tile of V
 
   BladeCoefficients(const FeRotorParameters& parameters, int lanes);
 
@@ -46,13 +48,22 @@ struct BladeCoefficients {
   std::vector<int> mode_order;                    // [modal entry] mode
   std::vector<double> stiffness, mode_damping;    // [modal entry][copy] omega^2, c
 
-  /// Up to kBlock rows of V, and the modal entries in which one of them moves.
-  struct ModeBlock {
-    int position[kBlock];            // in nodal arrays
-    int first, count;                // modal entries
-    std::vector<double> V;           // [count][kBlock][copy]
+  int modal_size() const { return mode_tiles * kTile; }  // of modal arrays; the entries beyond the modes stay zero
+
+  /// V in tiles of kTile rows, which have their places in nodal arrays, and kTile modal entries. Rows that move in the same modes stand side by side, too,
+  /// so that most tiles of zeros lie outside of the ranges.
+  struct TileRange {
+    int begin, end;
+    TileRange with(const TileRange& other) const { return {std::min(begin, other.begin), std::max(end, other.end)}; }
   };
-  std::vector<ModeBlock> mode_blocks;
+  int row_tiles, mode_tiles;
+  std::vector<int> row_position;           // [row]; the last entry of nodal arrays for rows that only fill a tile
+  std::vector<TileRange> modes_of_rows;    // [row tile] mode tiles
+  std::vector<TileRange> rows_of_modes;    // [mode tile] row tiles
+  std::vector<double> V;                   // [row tile][mode tile][mode][row][copy]
+  std::ptrdiff_t nextModeTile() const { return kTile * kTile * copies; }
+  std::ptrdiff_t nextRowTile() const { return mode_tiles * nextModeTile(); }
+  const double* tile(int row_tile, int mode_tile) const { return V.data() + row_tile * nextRowTile() + mode_tile * nextModeTile(); }
 
   /// The nodal loads of one kind are a sum over slots: linear forms first, then products of the displacements, then of their rates.
   int slots[kDofKinds];

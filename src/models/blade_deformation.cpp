@@ -9,9 +9,9 @@ template <int L>
 BladeDeformation<L>::BladeDeformation(const FeRotorParameters& p) : c_(p, L) {
   const auto size = [](int n) { return static_cast<std::size_t>(n); };
   const auto read = [this](const std::vector<double>& values, std::size_t index) { return entry<L>(c_, values, index); };
-  const std::size_t modes = size(c_.modes), nodal = size(c_.nodal_size);
+  const std::size_t modes = size(c_.modes), modal = size(c_.modal_size()), nodal = size(c_.nodal_size);
   state_key_.resize(size(2 * c_.modes * c_.blades));
-  q_.assign(modes, Pair{});
+  for (auto* v : {&q_, &row_constant_x_, &row_constant_y_}) v->assign(modal, Pair{});
   for (auto* v : {&d_, &nodal_x_, &nodal_y_}) v->assign(nodal, Pair{});
   section_.assign(c_.shapes.size() * kShapeRows, Pair{});
   for (int kind = 0; kind < kDofKinds; ++kind) slot_[kind].assign(size(c_.rows(kind) * c_.slots[kind]), Vec{});
@@ -22,8 +22,8 @@ BladeDeformation<L>::BladeDeformation(const FeRotorParameters& p) : c_(p, L) {
   }
   for (std::size_t m = 0; m < modes; ++m) {
     const auto row = [&](int which) { return read(c_.hub_rows, m * kHubRows + size(which)); };
-    row_constant_x_.push_back(joinLanes<L>(row(kRowX), row(kRowTurnX)));
-    row_constant_y_.push_back(joinLanes<L>(row(kRowY), row(kRowZ)));
+    row_constant_x_[m] = joinLanes<L>(row(kRowX), row(kRowTurnX));
+    row_constant_y_[m] = joinLanes<L>(row(kRowY), row(kRowZ));
   }
   row_x_ = row_constant_x_;
   row_y_ = row_constant_y_;
@@ -38,7 +38,7 @@ bool BladeDeformation<L>::deform(const double* x, const double (&twist)[2], bool
   std::memcpy(state_key_.data(), x, bytes);
   std::memcpy(twist_key_, twist, sizeof twist);
   state_valid_ = true;
-  for (std::size_t i = 0; i < q_.size(); ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(c_.modes); ++i) {
     const double* const q = x + c_.mode_order[i] * c_.blades;
     Vec value = loadLanes<L>(q, c_.blades), rate = loadLanes<L>(q + c_.modes * c_.blades, c_.blades);
     if (c_.absolute) {
@@ -63,12 +63,8 @@ void BladeDeformation<L>::deformImpl() noexcept {
   findMassMoments();
 
   // Hub rows of the deformed blade, and their products.
-  row_x_ = row_constant_x_;
-  addToModes<2 * L, L, equal>(c_, numbers(nodal_x_), numbers(row_x_));
-  if (offset) {
-    row_y_ = row_constant_y_;
-    addToModes<2 * L, L, equal>(c_, numbers(nodal_y_), numbers(row_y_));
-  }
+  toModes<2 * L, L, equal>(c_, numbers(nodal_x_), numbers(row_constant_x_), numbers(row_x_));
+  if (offset) toModes<2 * L, L, equal>(c_, numbers(nodal_y_), numbers(row_constant_y_), numbers(row_y_));
   findRowProducts<equal, offset>();
 }
 

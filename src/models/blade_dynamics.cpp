@@ -10,8 +10,8 @@ namespace heerk_rotor {
 
 template <int L>
 BladeDynamics<L>::BladeDynamics(const FeRotorParameters& p) : deformation_(p), c_(deformation_.coefficients()), root_lead_(p.blades.front().root_lead) {
-  const auto modes = static_cast<std::size_t>(c_.modes), nodal = static_cast<std::size_t>(c_.nodal_size);
-  for (auto* v : {&modal_load_, &remainder_, &q_acceleration_}) v->assign(modes, Vec{});
+  const auto modal = static_cast<std::size_t>(c_.modal_size()), nodal = static_cast<std::size_t>(c_.nodal_size);
+  for (auto* v : {&modal_load_, &remainder_, &q_acceleration_}) v->assign(modal, Vec{});
   for (auto* v : {&nodal_load_, &d_acceleration_}) v->assign(nodal, Vec{});
   load_key_.resize(static_cast<std::size_t>(4 * c_.sections * c_.blades));
   acceleration_key_.resize(sizeof(HubAcceleration<L>) / sizeof(double));
@@ -97,8 +97,7 @@ void BladeDynamics<L>::loadImpl(const BladeAxes<L>& axes, const double* loads) n
     air_moment_ = air_moment_ + cross(Vec3{sameLanes<L>(shape.radius), at_section.v, at_section.w}, force);
     air_moment_.x += moment;
   }
-  std::fill(modal_load_.begin(), modal_load_.end(), Vec{});
-  addToModes<L, L, equal>(c_, numbers(nodal_load_), numbers(modal_load_));
+  toModes<L, L, equal>(c_, numbers(nodal_load_), nullptr, numbers(modal_load_));
   c_.offset ? loadOnHub<equal, true>() : loadOnHub<equal, false>();
 
   // Force and moment that the hub exerts on the blade, less the airloads, without the hub's accelerations.
@@ -155,13 +154,11 @@ void BladeDynamics<L>::accelerateImpl(const BladeAxes<L>& axes, const HubAcceler
 }
 
 template <int L>
-const LaneVector<L>* BladeDynamics<L>::remainder() noexcept {
-  if (!remainder_valid_) {
-    if (c_.offset) c_.copies == 1 ? remainderImpl<true, true>() : remainderImpl<false, true>();
-    else c_.copies == 1 ? remainderImpl<true, false>() : remainderImpl<false, false>();
-    remainder_valid_ = true;
-  }
-  return remainder_.data();
+void BladeDynamics<L>::findRemainder() noexcept {
+  if (remainder_valid_) return;
+  if (c_.offset) c_.copies == 1 ? remainderImpl<true, true>() : remainderImpl<false, true>();
+  else c_.copies == 1 ? remainderImpl<true, false>() : remainderImpl<false, false>();
+  remainder_valid_ = true;
 }
 
 template <int L>
@@ -170,16 +167,26 @@ void BladeDynamics<L>::remainderImpl() noexcept {
   for (std::size_t m = 0; m < static_cast<std::size_t>(c_.modes); ++m) {
     Vec by_hub{};
     for (int i = 0; i < kHubRows; ++i) by_hub += deformation_.template hubRow<equal, offset>(i, m) * acceleration_[i];
-    remainder_[static_cast<std::size_t>(c_.mode_order[m])] = modal_load_[m] - by_hub;
+    remainder_[m] = modal_load_[m] - by_hub;
+  }
+}
+
+template <int L>
+void BladeDynamics<L>::storeRemainder(const double (&twist)[3], double* to) noexcept {
+  findRemainder();
+  for (std::size_t m = 0; m < static_cast<std::size_t>(c_.modes); ++m) {
+    Vec value = remainder_[m];
+    if (c_.absolute) value += entry<L>(c_, c_.twist_share, m) * (twist[0] * entry<L>(c_, c_.stiffness, m) + twist[1] * entry<L>(c_, c_.mode_damping, m) + twist[2]);
+    storeLanes<L>(value, c_.blades, to + c_.mode_order[m] * c_.blades);
   }
 }
 
 template <int L>
 SectionMotion<L> BladeDynamics<L>::displacementAcceleration(int j) noexcept {
   if (!d_acceleration_valid_) {
-    remainder();
+    findRemainder();
     for (std::size_t m = 0; m < static_cast<std::size_t>(c_.modes); ++m)
-      q_acceleration_[m] = remainder_[static_cast<std::size_t>(c_.mode_order[m])] - entry<L>(c_, c_.stiffness, m) * firstOf<L>(deformation_.modal(m)) - entry<L>(c_, c_.mode_damping, m) * secondOf<L>(deformation_.modal(m));
+      q_acceleration_[m] = remainder_[m] - entry<L>(c_, c_.stiffness, m) * firstOf<L>(deformation_.modal(m)) - entry<L>(c_, c_.mode_damping, m) * secondOf<L>(deformation_.modal(m));
     c_.copies == 1 ? toNodes<L, L, true>(c_, numbers(q_acceleration_), numbers(d_acceleration_))
                    : toNodes<L, L, false>(c_, numbers(q_acceleration_), numbers(d_acceleration_));
     d_acceleration_valid_ = true;

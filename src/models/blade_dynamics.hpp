@@ -58,8 +58,8 @@ class BladeDynamics {
 
   /// Level 3. Root lead, precone and pitch rate are accounted for here.
   void accelerate(const BladeAxes<L>& axes, const HubAcceleration<L>& hub) noexcept;
-  /// q'' - S x: what remains beside the modal oscillators, [mode].
-  const Vec* remainder() noexcept;
+  /// What remains of the states' second derivatives beside the modal oscillators of S, [mode][blade]. twist: of the mast, its rate and its acceleration.
+  void storeRemainder(const double (&twist)[3], double* to) noexcept;
   /// Second derivative of the displacements at section j.
   SectionMotion<L> displacementAcceleration(int j) noexcept;
   /// Force and moment of the blades on the hub about its centre, in R.
@@ -80,6 +80,7 @@ class BladeDynamics {
   template <bool equal> void loadImpl(const BladeAxes<L>& axes, const double* loads) noexcept;
   template <int rows> void sumOverSlots(int kind, const Vec* factor) noexcept;
   template <bool equal, bool offset> void loadOnHub() noexcept;
+  void findRemainder() noexcept;
   template <bool equal, bool offset> void remainderImpl() noexcept;
   void accelerateImpl(const BladeAxes<L>& axes, const HubAcceleration<L>& hub) noexcept;
 
@@ -100,7 +101,8 @@ class BladeDynamics {
   std::vector<double> acceleration_key_;
   bool acceleration_valid_ = false, remainder_valid_ = false, d_acceleration_valid_ = false;
   Vec acceleration_[kHubRows];                  // of the hub, in B
-  std::vector<Vec> remainder_, q_acceleration_, d_acceleration_;
+  std::vector<Vec> remainder_;                  // (modal) of q'' beside the modal oscillators
+  std::vector<Vec> q_acceleration_, d_acceleration_;
   Vec3 root_force_, root_moment_;
 };
 

@@ -1,8 +1,10 @@
 #include "heerk_rotor/models/fe_rotor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <vector>
 
 #include "blade_dynamics.hpp"
@@ -70,6 +72,7 @@ class FeRotor : public SubsystemModel {
     deform(x, u, known_);
     known_ = held_;
     bool accelerated = false;
+    double* geometry[kSectionPitchRate + 1] = {};  // where the sections' ports go, all in one pass
     for (Index k = 0; k < count; ++k) {
       const Index port = values[k].port;
       if (!accelerated && (port == kSectionAcceleration || port == kRotorForce || port == kTiltingMoment || port == kBladeReaction || port == kRootLoad || port == kFlapAcceleration)) {
@@ -78,13 +81,14 @@ class FeRotor : public SubsystemModel {
       }
       Out y(values[k].y, values[k].size);
       switch (port) {
-        case kSectionPosition: case kSectionVelocity: case kSectionAxes: case kSectionPitch: case kSectionPitchRate: sectionGeometry(port, u, y); break;
+        case kSectionPosition: case kSectionVelocity: case kSectionAxes: case kSectionPitch: case kSectionPitchRate: geometry[port] = values[k].y; break;
         case kSectionAcceleration: sectionAcceleration(u, y); break;
         case kRotorForce: case kTiltingMoment: case kBladeReaction: case kRootLoad: hubLoads(port, u, y); break;
         case kLag: case kLagRate: case kFlap: case kFlapRate: case kFlapAcceleration: case kTipTwist: tip(port, u, y); break;
         case kMomentum: case kAngularMomentum: case kEnergy: case kDissipation: balance(port, u, y); break;
       }
     }
+    if (std::any_of(std::begin(geometry), std::end(geometry), [](const double* y) { return y != nullptr; })) sectionGeometry(geometry, u);
   }
 
   bool holdState(bool held) noexcept override {
@@ -96,20 +100,14 @@ class FeRotor : public SubsystemModel {
   bool providesRemainder() const override { return true; }
 
   void evalRemainder(double, const In& x, const In& u, Out remainder) noexcept override {
-    deform(x, u, false);
+    deform(x, u, known_);
+    known_ = held_;
     accelerate(u);
     const Index n = static_cast<Index>(dynamics_.coefficients().modes) * blades_;
     remainder.head(n).setZero();
-    const Vec* const modal = dynamics_.remainder();
-    for (int i = 0; i < dynamics_.coefficients().modes; ++i) storeLanes<L>(modal[i], blades_, remainder.data() + n + i * blades_);
-    if (absolute_.empty()) return;
-    // p'' = q'' + b twist''; S makes -omega^2 p - c p' of it.
+    // p'' = q'' + b twist'' where the state counts from the drive; S makes -omega^2 p - c p' of it.
     const double *motion = input(u, kHubMotion), *acceleration = input(u, kHubAcceleration);
-    const BladeCoefficients& c = dynamics_.coefficients();
-    for (const Absolute& a : absolute_) {
-      const double omega = c.omega[static_cast<std::size_t>(a.state)], damping = c.damping[static_cast<std::size_t>(a.state)];
-      remainder[n + a.state] += a.share * (omega * omega * motion[2] + damping * motion[3] + acceleration[0] - acceleration[1]);
-    }
+    dynamics_.storeRemainder({motion[2], motion[3], acceleration[0] - acceleration[1]}, remainder.data() + n);
   }
 
   void evalDerivatives(double t, const In& x, const In& u, Out xdot) noexcept override {
@@ -162,7 +160,7 @@ class FeRotor : public SubsystemModel {
       axes_.pitch_cosine[k] = value.cosine;
     }
     const double* motion = input(u, kHubMotion);
-    const double s = std::sin(motion[0]), c = std::cos(motion[0]);
+    const auto [s, c] = sineCosine(motion[0]);
     axes_.sine = s * blade_cosine_ + c * blade_sine_;
     axes_.cosine = c * blade_cosine_ - s * blade_sine_;
     axes_.omega = axes_.fromHub(input(u, kMountVelocity) + 3);
@@ -189,52 +187,40 @@ class FeRotor : public SubsystemModel {
 
   Vec3 hubVelocity(const BladeAxes<L>& axes, const In& u) const noexcept { return axes.fromHub(input(u, kMountVelocity)); }
 
-  void store(Out& y, Index j, Index component, Index components, const Vec& value) const noexcept {
-    storeLanes<L>(value, blades_, y.data() + sectionEntry(j, component, components, 0, blades_));
+  void store(double* y, Index j, Index component, Index components, const Vec& value) const noexcept {
+    storeLanes<L>(value, blades_, y + sectionEntry(j, component, components, 0, blades_));
   }
-  void store(Out& y, Index j, Index component, Index components, const Vec3& value) const noexcept {
+  void store(double* y, Index j, Index component, Index components, const Vec3& value) const noexcept {
     store(y, j, component, components, value.x);
     store(y, j, component + 1, components, value.y);
     store(y, j, component + 2, components, value.z);
   }
 
-  void sectionGeometry(Index port, const In& u, Out& y) noexcept {
+  /// y: by port, null where it is not asked for.
+  void sectionGeometry(double* const (&y)[kSectionPitchRate + 1], const In& u) noexcept {
     const BladeAxes<L>& axes = movingAxes(u);
-    const Vec pitch = loadLanes<L>(input(u, port == kSectionPitchRate ? kPitchRate : kPitch), blades_);
+    const Vec pitch = loadLanes<L>(input(u, kPitch), blades_), pitch_rate = loadLanes<L>(input(u, kPitchRate), blades_);
     const Vec3 lead{Vec{}, sameLanes<L>(dynamics_.rootLead()), Vec{}};
-    Vec3 hub_velocity{}, omega_B{};
-    if (port == kSectionVelocity) {
-      hub_velocity = hubVelocity(axes, u) + cross(axes.omega, lead);
-      omega_B = axes.omegaOfBlade();
-    }
+    const Vec3 hub_velocity = hubVelocity(axes, u) + cross(axes.omega, lead), omega_B = axes.omegaOfBlade();
     for (int j = 0; j < p_.sections.count(); ++j) {
       const BladeCoefficients::SectionShape& shape = dynamics_.coefficients().shapes[static_cast<std::size_t>(j)];
-      if (port == kSectionPitchRate) {
-        store(y, j, 0, 1, pitch + dynamics_.displacementRate(j).twist);
-        continue;
-      }
-      const SectionMotion<L> d = dynamics_.displacement(j);
+      const SectionMotion<L> d = dynamics_.displacement(j), rate = dynamics_.displacementRate(j);
       const Vec3 position{sameLanes<L>(shape.radius), d.v, d.w};
-      switch (port) {
-        case kSectionPosition: store(y, j, 0, 3, lead + axes.fromBlade(position)); break;
-        case kSectionPitch: store(y, j, 0, 1, pitch + shape.built_in_twist + d.twist); break;
-        case kSectionVelocity: {
-          const SectionMotion<L> rate = dynamics_.displacementRate(j);
-          store(y, j, 0, 3, hub_velocity + axes.fromBlade(cross(omega_B, position) + Vec3{Vec{}, rate.v, rate.w}));
-          break;
-        }
-        case kSectionAxes: {
-          Vec3 t, n;
-          sectionAxes(axes, d, t, n);
-          store(y, j, 0, 6, t);
-          store(y, j, 3, 6, n);
-          break;
-        }
+      if (y[kSectionPosition]) store(y[kSectionPosition], j, 0, 3, lead + axes.fromBlade(position));
+      if (y[kSectionVelocity]) store(y[kSectionVelocity], j, 0, 3, hub_velocity + axes.fromBlade(cross(omega_B, position) + Vec3{Vec{}, rate.v, rate.w}));
+      if (y[kSectionAxes]) {
+        Vec3 t, n;
+        sectionAxes(axes, d, t, n);
+        store(y[kSectionAxes], j, 0, 6, t);
+        store(y[kSectionAxes], j, 3, 6, n);
       }
+      if (y[kSectionPitch]) store(y[kSectionPitch], j, 0, 1, pitch + shape.built_in_twist + d.twist);
+      if (y[kSectionPitchRate]) store(y[kSectionPitchRate], j, 0, 1, pitch_rate + rate.twist);
     }
   }
 
-  /// t and n perpendicular to the deformed elastic axis, t as near to the leading-edge direction of R as possible.
+  /// t and n perpendicular to the deformed elastic axis, t as near to the leading-edge direction y of R as possible: with `along` the axis,
+  /// n = along x y and t = n x along, each over its length.
   void sectionAxes(const BladeAxes<L>& axes, const SectionMotion<L>& d, Vec3& t, Vec3& n) const noexcept {
     if (p_.small_angle) {
       const Vec up = d.slope_w + precone_sine_;
@@ -243,13 +229,11 @@ class FeRotor : public SubsystemModel {
       return;
     }
     const Vec3 along = axes.fromBlade({sameLanes<L>(1.0), d.slope_v, d.slope_w});
-    const Vec3 span = inverseNorm(along) * along;
-    const Vec3 lead{-span.y * span.x, 1.0 - span.y * span.y, -span.y * span.z};
-    t = inverseNorm(lead) * lead;
-    n = cross(span, t);
+    const Vec square = along.x * along.x + along.z * along.z;  // of the length of n
+    const Vec length = squareRoot<L>(square + along.y * along.y), inverse = 1.0 / (squareRoot<L>(square) * length);
+    t = inverse * Vec3{-along.x * along.y, square, -along.z * along.y};
+    n = (inverse * length) * Vec3{-along.z, Vec{}, along.x};
   }
-
-  static Vec inverseNorm(const Vec3& v) noexcept { return 1.0 / squareRoot<L>(dot(v, v)); }
 
   void sectionAcceleration(const In& u, Out& y) noexcept {
     const BladeAxes<L>& axes = movingAxes(u);
@@ -272,7 +256,7 @@ class FeRotor : public SubsystemModel {
       const Vec3 position{sameLanes<L>(dynamics_.coefficients().shapes[static_cast<std::size_t>(j)].radius), d.v, d.w};
       const Vec3 relative{Vec{}, rate.v, rate.w};
       const Vec3 local = cross(alpha, position) + cross(w, cross(w, position)) + sameLanes<L>(2.0) * cross(w, relative) + Vec3{Vec{}, second.v, second.w};
-      store(y, j, 0, 3, origin + axes.fromBlade(local));
+      store(y.data(), j, 0, 3, origin + axes.fromBlade(local));
     }
   }
 
@@ -339,7 +323,7 @@ class FeRotor : public SubsystemModel {
   }
 
   bool held_ = false, known_ = false;   // evaluations are all at one x, which has been looked at
-  std::vector<Absolute> absolute_;      // states of slow modes, in the order of modes
+  std::vector<Absolute> absolute_;      // states of slow modes
   FeRotorParameters p_;
   int blades_;
   BladeDynamics<L> dynamics_;

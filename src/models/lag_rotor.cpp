@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "heerk_rotor/core/branch_free_math.hpp"
+
 namespace heerk_rotor {
 namespace {
 
@@ -73,8 +75,9 @@ double LagRotor::hingeAcceleration(const In& x, const In& u, int i) const noexce
 
 LagRotor::Accelerations LagRotor::accelerations(const In& x, const In& u) const noexcept {
   Accelerations a;
-  a.sine = std::sin(u[kAzimuth]);
-  a.cosine = std::cos(u[kAzimuth]);
+  const SineCosine azimuth = sineCosine(u[kAzimuth]);
+  a.sine = azimuth.sine;
+  a.cosine = azimuth.cosine;
   const double s = a.sine, c = a.cosine, omega = u[kSpeed], alpha = u[kHubAcceleration];
   const double base = absolute_ ? u[kDriveAcceleration] : alpha;  // angular acceleration of what the states are relative to
 
@@ -154,7 +157,8 @@ void LagRotor::hubForce(const In& x, const In& u, Out& y) const noexcept {
 }
 
 void LagRotor::bladeMomentum(const In& x, const In& u, Out& y) const noexcept {
-  const double s = std::sin(u[kAzimuth]), c = std::cos(u[kAzimuth]), omega = u[kSpeed];
+  const auto [s, c] = sineCosine(u[kAzimuth]);
+  const double omega = u[kSpeed];
   const double lag13 = lagAngle(x, u, 0) - lagAngle(x, u, 2), lag24 = lagAngle(x, u, 1) - lagAngle(x, u, 3);
   const double rate13 = lagRate(x, u, 0) - lagRate(x, u, 2), rate24 = lagRate(x, u, 1) - lagRate(x, u, 3);
   // d/dt sum phi_i e_t,i with e_t = (-s_i, c_i) and e_t' = -omega e_r

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <iterator>
+#include <limits>
 
 #include "heerk_rotor/models/rotor_sections.hpp"
 #include "model_factories.hpp"
@@ -21,7 +24,15 @@ struct Swashplate::Harmonics {
 
 Swashplate::Swashplate(const Parameters& parameters)
     : p_(parameters), azimuths_(parameters.blades), coupling_(std::tan(parameters.delta3)),
-      low_{p_.collective_min, -p_.cyclic_limit, -p_.cyclic_limit}, high_{p_.collective_max, p_.cyclic_limit, p_.cyclic_limit} {}
+      low_{p_.collective_min, -p_.cyclic_limit, -p_.cyclic_limit}, high_{p_.collective_max, p_.cyclic_limit, p_.cyclic_limit} {
+  // NaN of NaN: right for the first arguments, too, should they be NaN.
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  azimuth_key_ = kNaN;
+  std::fill(std::begin(saturation_key_), std::end(saturation_key_), kNaN);
+  saturation_.fill(kNaN);
+  std::fill(std::begin(cosine_), std::end(cosine_), kNaN);
+  std::fill(std::begin(sine_), std::end(sine_), kNaN);
+}
 
 std::vector<State> Swashplate::states() const {
   std::vector<State> list;
@@ -63,19 +74,34 @@ double Swashplate::limitedCommand(const In& u, Index i) const noexcept {
 
 Swashplate::Harmonics Swashplate::pitch(const In& x) const noexcept { return {x[0], x[1], x[2]}; }
 
-Swashplate::Harmonics Swashplate::pitchRate(const In& x, double speed) const noexcept {
-  double rate[3];
-  for (int i = 0; i < 3; ++i) rate[i] = p_.rate_limit * std::tanh(x[3 + i] / p_.rate_limit);
+const std::array<double, 3>& Swashplate::saturation(const In& x) noexcept {
+  if (std::memcmp(saturation_key_, x.data() + 3, sizeof saturation_key_) != 0) {
+    std::memcpy(saturation_key_, x.data() + 3, sizeof saturation_key_);
+    for (Index i = 0; i < 3; ++i) saturation_[static_cast<std::size_t>(i)] = std::tanh(x[3 + i] / p_.rate_limit);
+  }
+  return saturation_;
+}
+
+void Swashplate::turnTo(double azimuth) noexcept {
+  if (std::memcmp(&azimuth_key_, &azimuth, sizeof azimuth) == 0) return;
+  azimuth_key_ = azimuth;
+  azimuths_.evaluate(azimuth + p_.phase, cosine_, sine_);
+}
+
+Swashplate::Harmonics Swashplate::pitchRate(const In& x, double speed) noexcept {
+  const auto& saturated = saturation(x);
+  const double rate[3] = {p_.rate_limit * saturated[0], p_.rate_limit * saturated[1], p_.rate_limit * saturated[2]};
   return {rate[0], rate[1] + speed * x[2], rate[2] - speed * x[1]};
 }
 
-Swashplate::Harmonics Swashplate::pitchAcceleration(const In& x, const In& u) const noexcept {
+Swashplate::Harmonics Swashplate::pitchAcceleration(const In& x, const In& u) noexcept {
+  const auto& saturated = saturation(x);
   double rate[3], acceleration[3];
   for (int i = 0; i < 3; ++i) {
-    const double saturation = std::tanh(x[3 + i] / p_.rate_limit);
+    const double share = saturated[static_cast<std::size_t>(i)];
     const double demand_rate = p_.frequency * p_.frequency * (limitedCommand(u, i) - x[i]) - 2.0 * p_.damping_ratio * p_.frequency * x[3 + i];
-    rate[i] = p_.rate_limit * saturation;
-    acceleration[i] = (1.0 - saturation * saturation) * demand_rate;
+    rate[i] = p_.rate_limit * share;
+    acceleration[i] = (1.0 - share * share) * demand_rate;
   }
   const double speed = u[kSpeed], alpha = u[kHubAcceleration];
   return {acceleration[0],
@@ -88,25 +114,25 @@ void Swashplate::evalOutput(Index port, double, const In& x, const In& u, Out y)
     y = x.head(3);
     return;
   }
-  double cosine[BladeAzimuths::kMaxBlades], sine[BladeAzimuths::kMaxBlades];
-  azimuths_.evaluate(u[kAzimuth] + p_.phase, cosine, sine);
+  turnTo(u[kAzimuth]);
   const Harmonics part = port == kPitch ? pitch(x) : port == kPitchRate ? pitchRate(x, u[kSpeed]) : pitchAcceleration(x, u);
-  for (int k = 0; k < p_.blades; ++k) y[k] = part.collective + part.cosine * cosine[k] + part.sine * sine[k];
+  for (int k = 0; k < p_.blades; ++k) y[k] = part.collective + part.cosine * cosine_[k] + part.sine * sine_[k];
   if (coupling_ != 0.0) y -= coupling_ * u.segment(kFlap + port * p_.blades, p_.blades);  // flap and its derivatives, in the order of the outputs
 }
 
 bool Swashplate::outputJacobian(Index port, double, const In& x, const In& u, Eigen::Map<Matrix> jacobian) noexcept {
   if (port != kPitchAcceleration) return false;  // the others read nothing that is in a loop
-  double cosine[BladeAzimuths::kMaxBlades], sine[BladeAzimuths::kMaxBlades], gain[3];
-  azimuths_.evaluate(u[kAzimuth] + p_.phase, cosine, sine);
+  turnTo(u[kAzimuth]);
+  const auto& saturated = saturation(x);
+  double gain[3];
   for (int i = 0; i < 3; ++i) {
-    const double saturation = std::tanh(x[3 + i] / p_.rate_limit);
+    const double share = saturated[static_cast<std::size_t>(i)];
     const bool within = limitedCommand(u, i) == u[kCommand + i];
-    gain[i] = within ? (1.0 - saturation * saturation) * p_.frequency * p_.frequency : 0.0;
+    gain[i] = within ? (1.0 - share * share) * p_.frequency * p_.frequency : 0.0;
   }
   const Harmonics part = pitchAcceleration(x, u), rate = pitchRate(x, u[kSpeed]);
   for (int k = 0; k < p_.blades; ++k) {
-    const double c = cosine[k], s = sine[k];
+    const double c = cosine_[k], s = sine_[k];
     jacobian(k, kCommand) = gain[0];
     jacobian(k, kCommand + 1) = gain[1] * c;
     jacobian(k, kCommand + 2) = gain[2] * s;
@@ -119,8 +145,9 @@ bool Swashplate::outputJacobian(Index port, double, const In& x, const In& u, Ei
 }
 
 void Swashplate::evalDerivatives(double, const In& x, const In& u, Out xdot) noexcept {
+  const auto& saturated = saturation(x);
   for (int i = 0; i < 3; ++i) {
-    xdot[i] = p_.rate_limit * std::tanh(x[3 + i] / p_.rate_limit);
+    xdot[i] = p_.rate_limit * saturated[static_cast<std::size_t>(i)];
     xdot[3 + i] = p_.frequency * p_.frequency * (limitedCommand(u, i) - x[i]) - 2.0 * p_.damping_ratio * p_.frequency * x[3 + i];
   }
 }

@@ -133,10 +133,17 @@ struct AlgebraicSolver::Implementation {
   }
 
   SolveReport solve(double t, const Vector& x, const Vector& w, bool in_stage, bool trust) noexcept {
+    return solve(t, x, w, in_stage, trust, [] {});
+  }
+
+  /// then(): evaluates more at the same state, if there is a solution.
+  template <class Then>
+  SolveReport solve(double t, const Vector& x, const Vector& w, bool in_stage, bool trust, const Then& then) noexcept {
     ++counters.solves;
     values.in_stage = in_stage;
     values.beginSolve();
     const SolveReport report = run(in_stage ? stage_actions : actions, t, x, w, trust);
+    if (report.status == SolveStatus::kConverged) then();
     values.endSolve();
     return report;
   }
@@ -174,6 +181,10 @@ AlgebraicSolver::~AlgebraicSolver() = default;
 SolveReport AlgebraicSolver::solve(double t, const Vector& x, const Vector& w) noexcept { return impl_->solve(t, x, w, false, false); }
 
 SolveReport AlgebraicSolver::solveWithin(double t, const Vector& x, const Vector& w) noexcept { return impl_->solve(t, x, w, false, true); }
+
+SolveReport AlgebraicSolver::evalRemainderWithin(double t, const Vector& x, const Vector& w, bool complete, double* remainder) noexcept {
+  return impl_->solve(t, x, w, false, true, [&] { impl_->values.system.evalRemainder(t, x, impl_->values.u, complete, remainder); });
+}
 
 SolveReport AlgebraicSolver::solveStage(double t, const Vector& z, const Vector& w) noexcept { return impl_->solve(t, z, w, true, true); }
 

@@ -49,14 +49,21 @@ class Swashplate : public SubsystemModel {
  private:
   struct Harmonics;  // collective, cosine and sine part of the pitch or of one of its derivatives
   Harmonics pitch(const In& x) const noexcept;
-  Harmonics pitchRate(const In& x, double speed) const noexcept;
-  Harmonics pitchAcceleration(const In& x, const In& u) const noexcept;
+  Harmonics pitchRate(const In& x, double speed) noexcept;
+  Harmonics pitchAcceleration(const In& x, const In& u) noexcept;
   double limitedCommand(const In& u, Index i) const noexcept;
+  /// tanh(v_i / r) of the actuators' rates v, and the azimuths of all blades: ports and derivatives of an instant share them.
+  const std::array<double, 3>& saturation(const In& x) noexcept;
+  void turnTo(double azimuth) noexcept;
 
   Parameters p_;
   BladeAzimuths azimuths_;
   double coupling_;                                // tan(delta3) [-]
   std::array<double, 3> low_, high_;               // travel [rad]
+  // Of the last arguments, which are compared bitwise; NaN: none yet.
+  double saturation_key_[3], azimuth_key_;
+  std::array<double, 3> saturation_;
+  double cosine_[BladeAzimuths::kMaxBlades], sine_[BladeAzimuths::kMaxBlades];
 };
 
 }  // namespace heerk_rotor

@@ -62,6 +62,9 @@ class AlgebraicSolver {
   /// is not checked by another evaluation of the loop; at least every eighth solve in a row is.
   SolveReport solveWithin(double t, const Vector& x, const Vector& w) noexcept;
 
+  /// solveWithin(), then CoupledSystem::evalRemainder() while models still know that the state is the same; without a solution `remainder` is left alone.
+  SolveReport evalRemainderWithin(double t, const Vector& x, const Vector& w, bool complete, double* remainder) noexcept;
+
   /// solveWithin() in a stage whose state is given as z (CoupledSystem::stageSize()).
   SolveReport solveStage(double t, const Vector& z, const Vector& w) noexcept;
 
