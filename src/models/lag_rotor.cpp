@@ -192,7 +192,8 @@ void LagRotor::evalOutput(Index port, double, const In& x, const In& u, Out y) n
   }
 }
 
-void LagRotor::evalDerivatives(double, const In& x, const In& u, Out xdot) noexcept {
+/// Flat: accelerations() hands over nine numbers, which in a call go through memory.
+[[gnu::flatten]] void LagRotor::evalDerivatives(double, const In& x, const In& u, Out xdot) noexcept {
   const Accelerations a = accelerations(x, u);
   for (int i = 0; i < kXRate; ++i) xdot[i] = x[kXRate + i];
   xdot[kXRate] = a.x;

@@ -9,10 +9,6 @@
 
 namespace heerk_rotor {
 
-namespace {
-constexpr Index kLong = 16;  // numbers of a port that are worth sparing a copy
-}
-
 struct AlgebraicSolver::Implementation {
   explicit Implementation(CoupledSystem& system) : values(system) {}
 
@@ -86,9 +82,9 @@ struct AlgebraicSolver::Implementation {
         group.clear();
       }
       for (const Index input : item.inputs) takeOver(input);
-      // A long port that a single input reads goes there at once; y gets it only when somebody observes.
+      // A port that a single input reads goes there at once; y gets it only when somebody observes.
       double* result = values.y.data() + output.begin;
-      if (const Index reader = onlyReader(item.output); whom != For::kObservers && output.size > kLong && reader >= 0) {
+      if (const Index reader = onlyReader(item.output); whom != For::kObservers && reader >= 0) {
         const CoupledSystem::Input& input = values.system.inputs()[reader];
         result = values.u.data() + input.begin;
         written[reader] = 1;
