@@ -4,7 +4,6 @@
 // does not count, although it still slows caches and clock down.
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <map>
 #include <string>
 #include <vector>
@@ -13,6 +12,7 @@
 
 #include "heerk_rotor/assembly/build_simulation.hpp"
 #include "heerk_rotor/integrate/linear_propagator.hpp"
+#include "thread_time.hpp"
 
 namespace heerk_rotor {
 namespace {
@@ -21,11 +21,7 @@ constexpr int kWarmUp = 1800;      // steps, five revolutions
 constexpr int kIterations = 3600;  // steps, ten revolutions
 constexpr int kStretch = 60;       // steps between two looks at the clock
 
-double cpuMicroseconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
-}
+double cpuMicroseconds() { return 1e6 * threadSeconds(); }
 
 double wallMicroseconds() { return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 

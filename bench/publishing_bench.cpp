@@ -2,7 +2,6 @@
 // with a subscriber in another process (TCP without delay). The latter two need a master: scripts/benchmark.sh starts one; without, they are skipped.
 #include <chrono>
 #include <cstring>
-#include <ctime>
 #include <thread>
 
 #include <ros/ros.h>
@@ -14,6 +13,7 @@
 #include "heerk_rotor/ros/conversions.hpp"
 #include "heerk_rotor/ros/state_topics.hpp"
 #include "observed_instant.hpp"
+#include "thread_time.hpp"
 
 extern char** environ;
 
@@ -74,12 +74,6 @@ class Subscriber {
  private:
   pid_t process_ = -1;
 };
-
-double threadSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// CPU time of the publishing thread per instant, at the node's pace; argument: subscribers.
 void publish(benchmark::State& state) {

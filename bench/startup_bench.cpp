@@ -1,17 +1,11 @@
 // Start-up of each machine from its YAML file to the end of the first step, files in the page cache. Counters [ms]: reading the file, building the coupled system
 // (element matrices, modes, tables), building the simulation (analysis of the loops, matrix functions), the first step.
-#include <ctime>
-
 #include "step_benchmark.hpp"
 
 namespace heerk_rotor {
 namespace {
 
-double cpuMilliseconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
+double cpuMilliseconds() { return 1e3 * threadSeconds(); }
 
 /// The same parts as in buildSimulation(), one after the other.
 void toFirstStep(benchmark::State& state, const std::string& config) {

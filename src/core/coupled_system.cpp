@@ -127,7 +127,9 @@ void CoupledSystem::evalTogether(const Index* outputs, Index count, bool in_stag
   first.model->evalOutputs(values, count, t, In(x.data() + first.x_begin, first.x_size), In(u.data() + first.u_begin, first.u_size));
 }
 
-void CoupledSystem::RatesCall::takeOffStiff(const In& x, Out&& remainder) const noexcept { subtractStiff(*stiff, x, In(remainder.data(), remainder.size()), Out(remainder.data(), remainder.size())); }
+[[gnu::noinline]] void CoupledSystem::RatesCall::takeOffStiff(const double* x, double* remainder) const noexcept {
+  subtractStiff(*stiff, In(x, x_size), In(remainder, x_size), Out(remainder, x_size));
+}
 
 void CoupledSystem::evalRemainder(double t, const Vector& x, const Vector& u, bool complete, double* remainder) noexcept {
   for (const RatesCall& call : rates_calls_) call(t, x.data() + call.x_begin, u.data(), complete, remainder + call.x_begin);

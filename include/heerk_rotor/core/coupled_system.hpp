@@ -150,9 +150,9 @@ class CoupledSystem {
       const In xs(x, x_size), us(u + u_begin, u_size);
       if (provides_remainder && !complete) return model->evalRemainder(t, xs, us, Out(remainder, x_size));
       model->evalDerivatives(t, xs, us, Out(remainder, x_size));
-      if (stiff && !complete) takeOffStiff(xs, Out(remainder, x_size));
+      if (stiff && !complete) takeOffStiff(x, remainder);
     }
-    void takeOffStiff(const In& x, Out&& remainder) const noexcept;
+    void takeOffStiff(const double* x, double* remainder) const noexcept;
   };
 
   void layOutStages();
