@@ -88,8 +88,8 @@ What ports, loops and any number of models cost over a program for one problem a
 
 """ + table(["machine", "general", "by hand", "ratio", "difference after 1000 steps"], rows) + """
 The hand-written lag rotor knows that its blades are equal and undamped: it splits them into collective, differential and cyclic lag, takes the mast through all stages before the fuselage,
-and all sines at once. Half of the general step is the same physics, with reaction and accelerations as two ports that share no work; the rest is calling and copying (five
-evaluations and three copies of ports in each of five stages), propagation of two blocks by tables, and the check that every stage is finite. In the dual disc's step five film forces, each
+and all sines at once. Half of the general step is the same physics, with reaction and accelerations as two ports that share no work; the rest is calling (five
+evaluations of models in each of five stages), propagation of two blocks by tables, and the check that every stage is finite. In the dual disc's step five film forces, each
 waiting for the one before, take most of the hand-written time and a third of the general one.
 """
 
