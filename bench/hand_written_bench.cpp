@@ -347,7 +347,7 @@ void handWritten(benchmark::State& state, const std::string& config, const std::
 
   int steps = 0;
   by_hand = start;
-  ShortestStretch stretch(2e-7);
+  ShortestStretch stretch(400);
   for (auto _ : state) {
     by_hand.step();
     benchmark::DoNotOptimize(&by_hand);

@@ -17,13 +17,12 @@ inline std::unique_ptr<Simulation> make(const std::string& config, const std::ve
 
 /// Steps on from a saved state after `warm_up` steps; returns to it every `length` steps. Counters: what a solve of the algebraic part took, and the time
 /// per step of the shortest stretch.
-inline void stepOn(benchmark::State& state, Simulation& simulation, int warm_up = 1000, std::uint64_t length = 20000) {
+inline void stepOn(benchmark::State& state, Simulation& simulation, int warm_up = 1000, std::uint64_t length = 20000, int steps_of_stretch = 400) {
   const Vector command = simulation.system().defaultCommand();
-  const double warm_up_begin = threadSeconds();
   for (int k = 0; k < warm_up; ++k) simulation.step(command);
-  ShortestStretch stretch((threadSeconds() - warm_up_begin) / warm_up);
   const Simulation::Checkpoint start = simulation.checkpoint();
   const SolverCounters before = simulation.solver().counters();
+  ShortestStretch stretch(steps_of_stretch);
   for (auto _ : state) {
     if (simulation.step(command) != StepStatus::kOk) {
       state.SkipWithError("the step failed");

@@ -6,7 +6,7 @@
 #   --only      run only bench_NAME, or sweep (repeatable); the report keeps earlier results of the others
 #   --cpu       run the programs on this processor; the throughput of a sweep is measured on all that the script may use, if there are two
 #   --output    directory of performance.md (default: docs)
-# For a record keep the machine quiet: scripts/benchmark.sh --cpu 1, three minutes.
+# For a record keep the machine quiet: scripts/benchmark.sh --cpu 1, four minutes.
 # Exit status: 0; 1 a program failed or a benchmark reported an error (the report says which); that of the build when it fails.
 set -euo pipefail
 # shellcheck source-path=SCRIPTDIR
@@ -60,24 +60,29 @@ for program in "$programs"/bench_*; do
     --benchmark_report_aggregates_only=false >"$results/$name.log" 2>&1 || { echo "bench_$name failed, see $results/$name.log" >&2; status=1; }
 done
 
-# Throughput of a sweep: eight runs of the elastic rotor by one job, by two, and by two programs with half of the runs each, which share nothing but the
-# machine: what two jobs can reach on it. In turn, so that all see the same machine.
-key=subsystems.mast.stiffness
-run_sweep() { "$programs/simulate" "$repository/config/bo105.yaml" --sweep "$key=$1" --revolutions 10 --signals rotor.lag --output "$results/$2.csv" --jobs "$3" --json 2>/dev/null; }
+# Throughput of a sweep: eight runs of the elastic rotor by one job, by two, and, to see what the machine gives, by two programs that share nothing and do
+# every other of the runs each. In turn, so that all see the same machine; one line per repetition, of those that are complete.
+all_runs=3e5:3e7:8:log even_runs=3e5,1.1182e6,4.1681e6,1.5537e7 odd_runs=5.792e5,2.1589e6,8.0473e6,3e7
+run_sweep() { # VALUES JOBS NAME
+  "$programs/simulate" "$repository/config/bo105.yaml" --sweep "subsystems.mast.stiffness=$1" --revolutions 10 --signals rotor.lag --output "$results/sweep_$3.csv" --jobs "$2" --json \
+    2>/dev/null >"$results/sweep.$3"
+}
+run_halves() {
+  run_sweep "$even_runs" 1 even & local even=$!
+  run_sweep "$odd_runs" 1 odd && wait $even || { wait $even; return 1; }
+}
 if chosen sweep && [ "$(nproc)" -ge 2 ]; then
   echo sweep
-  : >"$results/sweep.jobs"
-  : >"$results/sweep.halves"
+  : >"$results/sweep.repetitions"
   for ((i = 0; i < 2 * repetitions - 1; ++i)); do
-    for jobs in 1 2; do
-      run_sweep 3e5:3e7:8:log "sweep_$jobs" $jobs >>"$results/sweep.jobs" || { echo "the sweep failed" >&2; status=1; }
-    done
-    run_sweep 3e5:2.16e6:4:log sweep_lower 1 >"$results/sweep.lower" &
-    lower=$!
-    run_sweep 4.17e6:3e7:4:log sweep_upper 1 >"$results/sweep.upper" || status=1
-    wait $lower || status=1
-    cat "$results/sweep.lower" "$results/sweep.upper" >>"$results/sweep.halves"
-    cmp "$results/sweep_1.csv" "$results/sweep_2.csv" || status=1
+    if run_sweep "$all_runs" 1 one && run_sweep "$all_runs" 2 two && run_halves; then
+      printf '{"one_job": %s, "two_jobs": %s, "halves": [%s, %s]}\n' "$(<"$results/sweep.one")" "$(<"$results/sweep.two")" "$(<"$results/sweep.even")" "$(<"$results/sweep.odd")" \
+        >>"$results/sweep.repetitions"
+      cmp "$results/sweep_one.csv" "$results/sweep_two.csv" || status=1
+    else
+      echo "the sweep failed" >&2
+      status=1
+    fi
   done
 fi
 

@@ -22,9 +22,7 @@ void RightHandSide::restart() noexcept {
 bool RightHandSide::evaluate(double t, const double* x, bool complete, double* f) noexcept {
   if ((++evaluations & 0xff) == 0 && cpuSeconds() > cpu_deadline) return false;
   x_ = In(x, x_.size());
-  if (!std::isfinite(x_.sum()) || solver_->solve(t, x_, command_).status != SolveStatus::kConverged) return false;
-  system_.evalRemainder(t, x_, solver_->u(), complete, f);
-  return true;
+  return std::isfinite(x_.sum()) && solver_->evalRemainderWithin(t, x_, command_, complete, f).status == SolveStatus::kConverged;
 }
 
 }  // namespace heerk_rotor::work_precision

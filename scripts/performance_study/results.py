@@ -10,7 +10,7 @@ SECONDS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
 
 
 class Measurement:
-    """One benchmark: times per iteration of all repetitions [s], and the counters of the fastest one."""
+    """One benchmark: times per iteration of all repetitions [s], and the counters of the one that was fastest as a whole."""
 
     def __init__(self, name):
         self.name, self.times, self.counters, self.error = name, [], {}, None
@@ -24,7 +24,7 @@ class Measurement:
         time = entry["real_time" if "/manual_time" in entry["name"] else "cpu_time"] * SECONDS[entry["time_unit"]]
         if not self.times or time < min(self.times):
             known = {"name", "run_name", "run_type", "repetitions", "repetition_index", "threads", "iterations", "real_time", "cpu_time", "time_unit", "family_index",
-                     "per_family_instance_index", "error_occurred", "error_message", "label"}
+                     "per_family_instance_index", "error_occurred", "error_message", "label", "shortest_us"}
             self.counters = {key: value for key, value in entry.items() if key not in known}
         self.times.append(time)
         self.stretch = min(self.stretch, entry.get("shortest_us", float("inf")) * 1e-6)
@@ -40,40 +40,35 @@ class Measurement:
 
 
 class Sweep:
-    """Wall and CPU times [s] of a sweep by one job and by two, and wall times of two programs that do half of it each; one entry per repetition."""
+    """A sweep by one job, by two, and by two programs that do half of it each; wall and CPU times [s], one entry per complete repetition."""
 
-    def __init__(self, folder):
-        runs = [json.loads(line) for line in self.lines(folder / "sweep.jobs")]
-        self.by_jobs = {jobs: [(run["wall_time"], run["cpu_time"]) for run in runs if run["jobs"] == jobs] for jobs in (1, 2)}
-        halves = [json.loads(line)["wall_time"] for line in self.lines(folder / "sweep.halves")]
-        self.programs = [max(pair) for pair in zip(halves[0::2], halves[1::2])]
+    def __init__(self, file):
+        runs = [json.loads(line) for line in file.read_text().splitlines()] if file.exists() else []
+        self.one, self.two = ([(run[jobs]["wall_time"], run[jobs]["cpu_time"]) for run in runs] for jobs in ("one_job", "two_jobs"))
+        self.programs = [max(half["wall_time"] for half in run["halves"]) for run in runs]
 
     @staticmethod
-    def lines(file):
-        return file.read_text().splitlines() if file.exists() else []
-
-    def median(self, jobs):
+    def median(times):
         """Median wall time and median CPU time."""
-        return tuple(statistics.median(run[k] for run in self.by_jobs[jobs]) for k in (0, 1))
+        return tuple(statistics.median(values) for values in zip(*times))
 
     def throughput(self):
         """Of two jobs, in parts of that of one: median over the repetitions."""
-        return statistics.median(one[0] / two[0] for one, two in zip(self.by_jobs[1], self.by_jobs[2]))
+        return statistics.median(one[0] / two[0] for one, two in zip(self.one, self.two))
 
     def throughput_of_programs(self):
-        """The same of two programs, or None."""
-        ratios = [one[0] / both for one, both in zip(self.by_jobs[1], self.programs)]
-        return statistics.median(ratios) if ratios else None
+        """The same of the two programs."""
+        return statistics.median(one[0] / both for one, both in zip(self.one, self.programs))
 
     def __bool__(self):
-        return all(self.by_jobs.values())
+        return bool(self.one)
 
 
 class Results:
     """All measurements by program and benchmark name, without the parts of the name that only say how it was run."""
 
     def __init__(self, folder):
-        self.sweep = Sweep(pathlib.Path(folder))
+        self.sweep = Sweep(pathlib.Path(folder) / "sweep.repetitions")
         self.programs, self.contexts, self.commits, self.repetitions = {}, {}, set(), 0
         for file in sorted(pathlib.Path(folder).glob("*.json")):
             try:

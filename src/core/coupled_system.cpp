@@ -127,6 +127,7 @@ void CoupledSystem::evalTogether(const Index* outputs, Index count, bool in_stag
   first.model->evalOutputs(values, count, t, In(x.data() + first.x_begin, first.x_size), In(u.data() + first.u_begin, first.u_size));
 }
 
+/// Not inlined: its views would lie on the stack of every call of a model.
 [[gnu::noinline]] void CoupledSystem::RatesCall::takeOffStiff(const double* x, double* remainder) const noexcept {
   subtractStiff(*stiff, In(x, x_size), In(remainder, x_size), Out(remainder, x_size));
 }

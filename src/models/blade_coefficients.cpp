@@ -140,7 +140,7 @@ BladeCoefficients::BladeCoefficients(const FeRotorParameters& p, int lanes_)
   modes_of_rows.assign(static_cast<std::size_t>(row_tiles), {mode_tiles, 0});
   rows_of_modes.assign(static_cast<std::size_t>(mode_tiles), {row_tiles, 0});
   for (int i = 0; i < row_tiles * kTile; i += kTile)
-    for (int entry = 0; entry < modal_size(); ++entry)
+    for (int entry = 0; entry < modalSize(); ++entry)
       for (int r = i; r < i + kTile; ++r) {
         const Row* const row = entry < modes ? rowAt(r) : nullptr;
         const int mode = row ? mode_order[static_cast<std::size_t>(entry)] : 0;

@@ -25,7 +25,8 @@ constexpr int kHubPairs = kHubRows * (kHubRows + 1) / 2;
 constexpr int hubPair(int i, int j) { return i * kHubRows - i * (i - 1) / 2 + j - i; }
 
 /// The numbers with which blades are computed in lanes: rounded once from the 80-bit matrices of the beam room and laid out in the order
-/// of use. Each coefficient stands once where all blades are equal, or once per lane ("copies"). What is zero for every blade is left out.
+/// of use. Each coefficient stands once where all blades are equal, or once per lane ("copies"). What is zero for every blade is left out,
+/// of V as far as tiles allow.
 ///
 /// Nodal arrays run by kind of displacement, then node, then value and slope: [lag | flap | twist][node][kKindSize], with a node of zeros
 /// on both sides of each kind, so that every node has two neighbours. Held degrees of freedom stay zero. The last entry belongs to none.
@@ -48,7 +49,7 @@ struct BladeCoefficients {
   std::vector<int> mode_order;                    // [modal entry] mode
   std::vector<double> stiffness, mode_damping;    // [modal entry][copy] omega^2, c
 
-  int modal_size() const { return mode_tiles * kTile; }  // of modal arrays; the entries beyond the modes stay zero
+  int modalSize() const { return mode_tiles * kTile; }  // of modal arrays; the entries beyond the modes stay zero
 
   /// V in tiles of kTile rows, which have their places in nodal arrays, and kTile modal entries. Rows that move in the same modes stand side by side, too,
   /// so that most tiles of zeros lie outside of the ranges.

@@ -9,7 +9,7 @@ template <int L>
 BladeDeformation<L>::BladeDeformation(const FeRotorParameters& p) : c_(p, L) {
   const auto size = [](int n) { return static_cast<std::size_t>(n); };
   const auto read = [this](const std::vector<double>& values, std::size_t index) { return entry<L>(c_, values, index); };
-  const std::size_t modes = size(c_.modes), modal = size(c_.modal_size()), nodal = size(c_.nodal_size);
+  const std::size_t modes = size(c_.modes), modal = size(c_.modalSize()), nodal = size(c_.nodal_size);
   state_key_.resize(size(2 * c_.modes * c_.blades));
   for (auto* v : {&q_, &row_constant_x_, &row_constant_y_}) v->assign(modal, Pair{});
   for (auto* v : {&d_, &nodal_x_, &nodal_y_}) v->assign(nodal, Pair{});

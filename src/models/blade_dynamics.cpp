@@ -10,7 +10,7 @@ namespace heerk_rotor {
 
 template <int L>
 BladeDynamics<L>::BladeDynamics(const FeRotorParameters& p) : deformation_(p), c_(deformation_.coefficients()), root_lead_(p.blades.front().root_lead) {
-  const auto modal = static_cast<std::size_t>(c_.modal_size()), nodal = static_cast<std::size_t>(c_.nodal_size);
+  const auto modal = static_cast<std::size_t>(c_.modalSize()), nodal = static_cast<std::size_t>(c_.nodal_size);
   for (auto* v : {&modal_load_, &remainder_, &q_acceleration_}) v->assign(modal, Vec{});
   for (auto* v : {&nodal_load_, &d_acceleration_}) v->assign(nodal, Vec{});
   load_key_.resize(static_cast<std::size_t>(4 * c_.sections * c_.blades));

@@ -69,8 +69,7 @@ class FeRotor : public SubsystemModel {
   }
 
   void evalOutputs(const PortValue* values, Index count, double, const In& x, const In& u) noexcept override {
-    deform(x, u, known_);
-    known_ = held_;
+    deform(x, u);
     bool accelerated = false;
     double* geometry[kSectionPitchRate + 1] = {};  // where the sections' ports go, all in one pass
     for (Index k = 0; k < count; ++k) {
@@ -100,8 +99,7 @@ class FeRotor : public SubsystemModel {
   bool providesRemainder() const override { return true; }
 
   void evalRemainder(double, const In& x, const In& u, Out remainder) noexcept override {
-    deform(x, u, known_);
-    known_ = held_;
+    deform(x, u);
     accelerate(u);
     const Index n = static_cast<Index>(dynamics_.coefficients().modes) * blades_;
     remainder.head(n).setZero();
@@ -135,9 +133,10 @@ class FeRotor : public SubsystemModel {
     double share;  // of the mast's twist
   };
 
-  void deform(const In& x, const In& u, bool same_x) noexcept {
+  void deform(const In& x, const In& u) noexcept {
     const double* motion = input(u, kHubMotion);
-    dynamics_.deform(x.data(), {motion[2], motion[3]}, same_x);
+    dynamics_.deform(x.data(), {motion[2], motion[3]}, known_);
+    known_ = held_;
   }
 
   /// cos and sin of multiples of a quarter turn without rounding, so that opposite blades cancel exactly.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "heerk_rotor/core/branch_free_math.hpp"
+
 namespace heerk_rotor {
 namespace {
 
@@ -63,7 +65,8 @@ double LagAirloads::inducedVelocity(double thrust0, double slope, double speed_s
 }
 
 LagAirloads::Loads LagAirloads::loads(const In& u) const noexcept {
-  const double s = std::sin(u[kAzimuth]), c = std::cos(u[kAzimuth]), omega = u[kSpeed];
+  const auto [s, c] = sineCosine(u[kAzimuth]);
+  const double omega = u[kSpeed];
   // e_r = (-cos, -sin), e_t = (sin, -cos) in hub_link, psi = 0 aft
   const double sine[kBlades] = {s, c, -s, -c}, cosine[kBlades] = {c, -s, -c, s};
   const double half_rho_c = 0.5 * p_.air_density * p_.chord;

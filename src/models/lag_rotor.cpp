@@ -98,9 +98,9 @@ LagRotor::Accelerations LagRotor::accelerations(const In& x, const In& u) const 
   const double sin_force = s * force13 + c * force24, cos_force = c * force13 - s * force24;
 
   // Fuselage rows with phi_i'' eliminated: sum s_i^2 = sum c_i^2 = 2 and sum s_i c_i = 0 for four blades.
-  const double rhs_x = -c_.per_mass_x * sin_force - c_.damping_x * x[kXRate] - c_.stiffness_x * x[kX] +
+  const double rhs_x = -c_.per_mass_x * sin_force - c_.damping_x * x[kXRate] - c_.spring_x * x[kX] +
                        c_.r_mx * (sin_acc + 2.0 * omega * cos_rate - omega * omega * sin_lag + alpha * cos_lag);
-  const double rhs_y = c_.per_mass_y * cos_force - c_.damping_y * x[kYRate] - c_.stiffness_y * x[kY] -
+  const double rhs_y = c_.per_mass_y * cos_force - c_.damping_y * x[kYRate] - c_.spring_y * x[kY] -
                        c_.r_my * (cos_acc - 2.0 * omega * sin_rate - omega * omega * cos_lag - alpha * sin_lag);
   a.x = c_.gain_x * rhs_x;
   a.y = c_.gain_y * rhs_y;
@@ -151,8 +151,8 @@ bool LagRotor::outputJacobian(Index port, double, const In& x, const In& u, Eige
 
 void LagRotor::hubForce(const In& x, const In& u, Out& y) const noexcept {
   const Accelerations a = accelerations(x, u);
-  const double force_x = p_.fuselage_mass_x * a.x + p_.fuselage_damping_x * x[kXRate] + c_.mass_x * c_.stiffness_x * x[kX];
-  const double force_y = p_.fuselage_mass_y * a.y + p_.fuselage_damping_y * x[kYRate] + c_.mass_y * c_.stiffness_y * x[kY];
+  const double force_x = p_.fuselage_mass_x * a.x + p_.fuselage_damping_x * x[kXRate] + c_.mass_x * c_.spring_x * x[kX];
+  const double force_y = p_.fuselage_mass_y * a.y + p_.fuselage_damping_y * x[kYRate] + c_.mass_y * c_.spring_y * x[kY];
   y << -force_x, -force_y, u[kThrust];  // the paper's x points aft and y to starboard
 }
 

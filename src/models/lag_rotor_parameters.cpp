@@ -53,8 +53,8 @@ LagRotorConstants::LagRotorConstants(const LagRotorParameters& p) {
   per_mass_y = 1.0 / mass_y;
   damping_x = p.fuselage_damping_x / mass_x;
   damping_y = p.fuselage_damping_y / mass_y;
-  stiffness_x = p.fuselage_frequency_x * p.fuselage_frequency_x;
-  stiffness_y = p.fuselage_frequency_y * p.fuselage_frequency_y;
+  spring_x = p.fuselage_frequency_x * p.fuselage_frequency_x;
+  spring_y = p.fuselage_frequency_y * p.fuselage_frequency_y;
   gain_x = 1.0 / (1.0 - 2.0 * r_mx * r_b);
   gain_y = 1.0 / (1.0 - 2.0 * r_my * r_b);
   q = kLagBlades * coupling_inertia * g / hub_inertia;

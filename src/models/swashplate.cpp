@@ -25,7 +25,7 @@ struct Swashplate::Harmonics {
 Swashplate::Swashplate(const Parameters& parameters)
     : p_(parameters), azimuths_(parameters.blades), coupling_(std::tan(parameters.delta3)),
       low_{p_.collective_min, -p_.cyclic_limit, -p_.cyclic_limit}, high_{p_.collective_max, p_.cyclic_limit, p_.cyclic_limit} {
-  // NaN of NaN: right for the first arguments, too, should they be NaN.
+  // As if NaN had been asked for last: should that be the first argument, NaN is the answer.
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   azimuth_key_ = kNaN;
   std::fill(std::begin(saturation_key_), std::end(saturation_key_), kNaN);
@@ -98,10 +98,10 @@ Swashplate::Harmonics Swashplate::pitchAcceleration(const In& x, const In& u) no
   const auto& saturated = saturation(x);
   double rate[3], acceleration[3];
   for (int i = 0; i < 3; ++i) {
-    const double share = saturated[static_cast<std::size_t>(i)];
+    const double s = saturated[static_cast<std::size_t>(i)];
     const double demand_rate = p_.frequency * p_.frequency * (limitedCommand(u, i) - x[i]) - 2.0 * p_.damping_ratio * p_.frequency * x[3 + i];
-    rate[i] = p_.rate_limit * share;
-    acceleration[i] = (1.0 - share * share) * demand_rate;
+    rate[i] = p_.rate_limit * s;
+    acceleration[i] = (1.0 - s * s) * demand_rate;
   }
   const double speed = u[kSpeed], alpha = u[kHubAcceleration];
   return {acceleration[0],
@@ -126,9 +126,9 @@ bool Swashplate::outputJacobian(Index port, double, const In& x, const In& u, Ei
   const auto& saturated = saturation(x);
   double gain[3];
   for (int i = 0; i < 3; ++i) {
-    const double share = saturated[static_cast<std::size_t>(i)];
+    const double s = saturated[static_cast<std::size_t>(i)];
     const bool within = limitedCommand(u, i) == u[kCommand + i];
-    gain[i] = within ? (1.0 - share * share) * p_.frequency * p_.frequency : 0.0;
+    gain[i] = within ? (1.0 - s * s) * p_.frequency * p_.frequency : 0.0;
   }
   const Harmonics part = pitchAcceleration(x, u), rate = pitchRate(x, u[kSpeed]);
   for (int k = 0; k < p_.blades; ++k) {

@@ -204,7 +204,7 @@ void findInnerInputs(const CoupledSystem& system, LoopPlan& plan) {
     if (contains(plan.core, port)) append(readOf(port, plan.core), plan.core_inputs);
     const CoupledSystem::Output& output = system.outputs()[port];
     const auto iterated = std::count_if(plan.unknowns.begin(), plan.unknowns.end(), [&](Index e) { return e >= output.begin && e < output.begin + output.size; });
-    if (iterated < output.size || !readOf(port, plan.after).empty()) plan.spared.push_back(port);
+    if (iterated < output.size || !readOf(port, plan.after).empty()) plan.always_checked.push_back(port);
   }
   for (const Index port : plan.before) plan.before_inputs.push_back(readOf(port, plan.outputs));
   for (const Index port : plan.after) plan.after_inputs.push_back(readOf(port, plan.outputs));

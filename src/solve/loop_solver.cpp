@@ -286,7 +286,7 @@ SolveReport LoopSolver::solve(double t, const Vector& x, const Vector& w, bool t
   if (!loop.trusted) for (const Index port : loop.plan.core) adopt(port);
   evaluateInOrder(loop.plan.after, loop.plan.after_inputs, t, x, w);
   loop.unchecked = loop.trusted ? loop.unchecked + 1 : 0;
-  const bool good = report.status == SolveStatus::kConverged && consistent(loop.trusted ? loop.plan.spared : loop.plan.outputs, t, x, w, report.entry);
+  const bool good = report.status == SolveStatus::kConverged && consistent(loop.trusted ? loop.plan.always_checked : loop.plan.outputs, t, x, w, report.entry);
   if (good || use_full_) return report;
 
   // Either a pruned zero became nonzero, or the pruned pattern hides what convergence needs: solve the whole loop.

@@ -293,12 +293,19 @@ TEST_P(EveryModel, evaluatesPortsTogetherAsOneByOne) {
     std::vector<PortValue> values;
     for (const OutputPort& port : tested.outputs) together.push_back(Vector::Constant(port.size, -1.0));
     for (std::size_t p = 0; p < tested.outputs.size(); ++p) values.push_back({static_cast<Index>(p), together[p].data(), together[p].size()});
+    Vector rates = Vector::Constant(x.size(), -1.0), rates_after = rates;
     std::reverse(values.begin(), values.end());  // in any order
     tested.model->evalOutputs(values.data(), static_cast<Index>(values.size()), 0.4, in(x), in(u));
     // At the state that is held, but with other inputs.
     if (held && !tested.outputs.empty()) tested.model->evalOutputs(values.data(), 1, 0.4, in(x), in(other_u));
     if (held) tested.model->evalOutputs(values.data(), static_cast<Index>(values.size()), 0.4, in(x), in(u));
+    // Rates while the state is held, after ports and after rates with other inputs.
+    if (held) tested.model->evalRemainder(0.4, in(x), in(other_u), view(rates));
+    tested.model->evalRemainder(0.4, in(x), in(u), view(rates));
     tested.model->holdState(false);
+    tested.model->evalRemainder(0.3, in(other_x), in(other_u), view(rates_after));
+    tested.model->evalRemainder(0.4, in(x), in(u), view(rates_after));
+    EXPECT_EQ(rates, rates_after);
     for (std::size_t p = 0; p < tested.outputs.size(); ++p) EXPECT_EQ(together[p], tested.output(p, 0.4, x, u)) << tested.outputs[p].name;
   }
 }

@@ -81,18 +81,20 @@ class PerformanceReport(unittest.TestCase):
         _, text, _ = self.report()
         self.assertIn("\n## Work and precision\n\n![error](performance/lag.png) [there](https://example.org) [up](#bounds)\n", text)
 
-    def write_sweep(self, file, runs):
-        (self.folder / "results" / file).write_text("".join(json.dumps({"jobs": jobs, "wall_time": wall, "cpu_time": cpu}) + "\n" for jobs, wall, cpu in runs))
+    def write_sweep(self, *repetitions):
+        def run(wall, cpu):
+            return {"wall_time": wall, "cpu_time": cpu}
+        lines = [json.dumps({"one_job": run(*one), "two_jobs": run(*two), "halves": [run(half, half) for half in halves]}) + "\n" for one, two, halves in repetitions]
+        (self.folder / "results" / "sweep.repetitions").write_text("".join(lines))
 
     def test_the_sweep_by_two_jobs_is_held_against_one(self):
         self.write("lag_rotor_step", entry("step/absolute_lag_3e4", 400.0, h=1e-3))
-        times = "wall times 4.20 s and 2.20 s, CPU times 4.10 s and 4.30 s"
-        self.write_sweep("sweep.jobs", [(1, 4.2, 4.1), (2, 3.0, 4.4), (1, 4.0, 3.9), (2, 2.0, 4.0), (1, 4.4, 4.3), (2, 2.2, 4.3)])
-        self.assertIn(f"| 2.00 ({times}) | yes |", self.report()[1])
         # Two programs are as fast as the slower of them.
-        self.write_sweep("sweep.halves", [(1, 1.9, 1.9), (1, 2.1, 2.0), (1, 2.5, 2.0), (1, 1.8, 1.8), (1, 1.0, 1.0), (1, 2.0, 2.0)])
-        self.assertIn(f"| 2.00 ({times}; two programs that do half of the runs each: 2.00) | yes |", self.report()[1])
-        self.write_sweep("sweep.jobs", [(1, 8.0, 4.0), (2, 8.0, 4.0)])
+        self.write_sweep(((4.2, 4.1), (3.0, 4.4), (1.9, 2.1)), ((4.0, 3.9), (2.0, 4.0), (2.5, 1.8)), ((4.4, 4.3), (2.2, 4.3), (1.0, 2.0)))
+        self.assertIn("| 2.00, two programs that share nothing: 2.00 (medians of ratios; medians of wall times 4.20 s and 2.20 s, CPU times 4.10 s and 4.30 s) | yes |", self.report()[1])
+        self.write_sweep(((4.0, 4.0), (2.5, 4.5), (2.4, 2.0)))
+        self.assertIn("| 1.60, two programs that share nothing: 1.67 (medians of ratios; medians of wall times 4.00 s and 2.50 s, CPU times 4.00 s and 4.50 s) | **no** |", self.report()[1])
+        self.write_sweep(((8.0, 4.0), (8.0, 4.0), (4.0, 4.0)))
         self.assertIn("| one job got 50 % of a processor; wall times 8.00 s and 8.00 s, CPU times 4.00 s and 4.00 s | machine not free |", self.report()[1])
 
     def test_without_results_it_says_what_it_expected(self):

@@ -32,7 +32,7 @@ struct SineCosine {
   double sine, cosine;
 };
 
-/// Sine and cosine to 2e-16 for |angle| up to 250 000 turns, ten hours of a rotor: reduced to |r| <= pi/4, there Taylor series.
+/// Sine and cosine to 2e-16 for |angle| up to 250 000 turns, ten hours at 7 turns per second: reduced to |r| <= pi/4, there Taylor series.
 inline SineCosine sineCosine(double angle) noexcept {
   // pi/2 in two parts, the first with 33 bits, so that quarter * kHigh is exact
   constexpr double kHigh = 1.57079632673412561417e+00, kLow = 6.07710050650619224932e-11;

@@ -53,7 +53,7 @@ struct LagRotorConstants {
   double load;                // 1 / I_l [1/(kg m^2)]
   double per_mass_x, per_mass_y;  // 1 / mass [1/kg]
   double damping_x, damping_y;    // fuselage damping over mass [1/s]
-  double stiffness_x, stiffness_y;  // omega_x^2, omega_y^2 [1/s^2]
+  double spring_x, spring_y;  // omega_x^2, omega_y^2 [1/s^2]
   double gain_x, gain_y;      // 1 / (1 - 2 r_m r_b): of the fuselage's rows once the blades' accelerations are eliminated
   double kappa;               // 1 / (1 - q): amplification of the loop hub acceleration -> lag acceleration
 };

@@ -63,7 +63,7 @@ class Swashplate : public SubsystemModel {
   // Of the last arguments, which are compared bitwise; NaN: none yet.
   double saturation_key_[3], azimuth_key_;
   std::array<double, 3> saturation_;
-  double cosine_[BladeAzimuths::kMaxBlades], sine_[BladeAzimuths::kMaxBlades];
+  double cosine_[BladeAzimuths::kMaxBlades], sine_[BladeAzimuths::kMaxBlades];  // of psi_k + Delta
 };
 
 }  // namespace heerk_rotor

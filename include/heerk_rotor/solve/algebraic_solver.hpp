@@ -55,7 +55,7 @@ class AlgebraicSolver {
   AlgebraicSolver(CoupledSystem& system, const SolverOptions& options, double t, const Vector& x, const Vector& w);
   ~AlgebraicSolver();
 
-  /// Outputs that f needs. Allocates nothing.
+  /// What f needs: u, and of y the ports in loops and those with several readers; all of y is right only after evalObserved(). Allocates nothing.
   SolveReport solve(double t, const Vector& x, const Vector& w) noexcept;
 
   /// The same for an instant within a step that nobody sees. A correction whose error, as estimated from earlier solves, is below a quarter of the tolerance
@@ -68,7 +68,7 @@ class AlgebraicSolver {
   /// solveWithin() in a stage whose state is given as z (CoupledSystem::stageSize()).
   SolveReport solveStage(double t, const Vector& z, const Vector& w) noexcept;
 
-  /// All other outputs, from the last solution: call before reading the complete y.
+  /// All other outputs, from the last solution: call before reading y.
   void evalObserved(double t, const Vector& x, const Vector& w) noexcept;
 
   const Vector& y() const;

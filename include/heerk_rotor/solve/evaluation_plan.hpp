@@ -15,7 +15,7 @@ struct LoopPlan {
   std::vector<Index> core;      // evaluated for every residual
   std::vector<Index> after;     // evaluated once after convergence, in order
   std::vector<std::vector<Index>> before_inputs, after_inputs;  // for each of these, the inner inputs that it reads
-  std::vector<Index> spared;    // ports of which pruning assumes more than that they are iterated: with entries that are not, or reading ports in `after`
+  std::vector<Index> always_checked;    // ports of which pruning assumes more than that they are iterated: with entries that are not, or reading ports in `after`
   std::vector<Index> unknowns;  // y entries that are iterated, ascending
   SparsityPattern gradient;     // of dg/dy restricted to the unknowns, diagonal always present
   std::vector<Index> colour;    // (unknowns) columns of one colour share no row, so one difference serves them all
